@@ -1,0 +1,1 @@
+"""Neuromechanical experiments as documents."""

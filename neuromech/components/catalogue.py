@@ -1,0 +1,68 @@
+"""The vocabulary as a value: which class each (family, kind) of a document means."""
+
+from collections.abc import Iterable, Mapping
+from importlib.metadata import entry_points
+from types import MappingProxyType
+from typing import Self
+
+from neuromech.components.base import Component, Family
+from neuromech.components.muscles import BrownMuscle, ConstantMomentArms, StraightLines
+from neuromech.components.neurons import RateNeuron, RybakInterneuron, RybakNeuron, StaticNeuron
+from neuromech.components.sensors import JointSensor, LegLoadSensor, LinkSensor, StretchSensor
+from neuromech.components.synapses import DescendingDrive, ExcitatorySynapse, InhibitorySynapse, InterlimbSynapse
+
+BUILT_IN: tuple[type[Component], ...] = (
+    RybakNeuron,
+    RybakInterneuron,
+    RateNeuron,
+    StaticNeuron,
+    DescendingDrive,
+    ExcitatorySynapse,
+    InhibitorySynapse,
+    InterlimbSynapse,
+    BrownMuscle,
+    ConstantMomentArms,
+    StraightLines,
+    StretchSensor,
+    LegLoadSensor,
+    JointSensor,
+    LinkSensor,
+)
+
+
+class Catalogue:
+    """An immutable set of component classes, looked up by family and kind."""
+
+    def __init__(self, classes: Iterable[type[Component]]) -> None:
+        """Collect the classes.
+
+        Raises:
+            ValueError: two classes claim the same family and kind.
+        """
+        found: dict[tuple[Family, str], type[Component]] = {}
+        for cls in classes:
+            key = (cls.family, cls.kind_name())
+            if key in found:
+                raise ValueError(f"two components claim the {key[0]} kind '{key[1]}': {found[key].__qualname__} "
+                                 f"and {cls.__qualname__}")
+            found[key] = cls
+        self.classes: Mapping[tuple[Family, str], type[Component]] = MappingProxyType(found)
+
+    @classmethod
+    def built_in(cls) -> Self:
+        """Return the vocabulary that comes with this package."""
+        return cls(BUILT_IN)
+
+    @classmethod
+    def installed(cls) -> Self:
+        """Return the built-in vocabulary joined with every class of the entry-point group `neuromech.components`."""
+        plugins = [point.load() for point in entry_points(group="neuromech.components")]
+        return cls((*BUILT_IN, *plugins))
+
+    def kinds(self, family: Family) -> tuple[str, ...]:
+        """Return the kinds of a family in alphabetical order."""
+        return tuple(sorted(kind for found, kind in self.classes if found == family))
+
+    def find(self, family: Family, kind: str) -> type[Component] | None:
+        """Return the class of a kind, or None where the family has no such kind."""
+        return self.classes.get((family, kind))

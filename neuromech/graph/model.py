@@ -1,0 +1,95 @@
+"""The model as a graph: every element a node, every connection an edge, all names resolved and qualified."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal
+
+import networkx as nx
+
+from neuromech.components.base import Component
+from neuromech.spec.document import Document
+from neuromech.spec.model import Contact, Joint, Root, Segment, World
+
+NodeFamily = Literal["neuron", "drive", "muscle", "sensor", "joint", "segment", "contact"]
+EdgeKind = Literal["synapse", "wire", "crossing", "structure"]
+
+if TYPE_CHECKING:
+    Graph = nx.MultiDiGraph[str]
+
+
+@dataclass(frozen=True, slots=True)
+class Element:
+    """What a node of the graph stands for. Stored as the node attribute `element`.
+
+    Args:
+        name: qualified name, which is the node itself.
+        family: what kind of thing it is.
+        spec: the component, or the segment, joint or contact as written.
+        path: dotted path in the document.
+        scope: qualified name of the instance that holds it, empty for the document.
+    """
+
+    name: str
+    family: NodeFamily
+    spec: Component | Segment | Joint | Contact
+    path: str
+    scope: str
+
+
+@dataclass(frozen=True, slots=True)
+class Connection:
+    """What an edge of the graph stands for. Stored as the edge attribute `connection`.
+
+    `synapse`: weighted and possibly delayed, from an output of the sender into an input port of a neuron. `wire`: an
+    output feeds an input port as it is (weight 1). `crossing`: a muscle's path crosses a joint. `structure`: parent
+    segment to joint, joint to child segment, segment to contact.
+    """
+
+    kind: EdgeKind
+    path: str
+    output: str = ""
+    port: str = ""
+    spec: Component | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class BodyModel:
+    """A body with qualified names throughout, in authored order; parents come before their children."""
+
+    engine: str
+    file: str | None
+    root: Root
+    root_segment: str
+    segments: dict[str, Segment]
+    joints: dict[str, Joint]
+    contacts: dict[str, Contact]
+    world: World
+
+
+@dataclass(frozen=True, slots=True)
+class ModelGraph:
+    """The whole model. `graph` is a MultiDiGraph over qualified names, nodes in authored order."""
+
+    document: Document
+    graph: "Graph"
+    body: BodyModel | None
+
+    def elements(self, *families: NodeFamily) -> Iterator[Element]:
+        """Yield the elements of the given families (all families where none is given), in authored order."""
+        for _, element in self.graph.nodes(data="element"):
+            if not families or element.family in families:
+                yield element
+
+    def element(self, name: str) -> Element:
+        """Return the element with a qualified name.
+
+        Raises:
+            KeyError: there is none.
+        """
+        return self.graph.nodes[name]["element"]  # type: ignore[no-any-return]
+
+    def connections(self, *kinds: EdgeKind) -> Iterator[tuple[str, str, Connection]]:
+        """Yield (sender, receiver, connection) of the given kinds (all where none is given), in authored order."""
+        for sender, receiver, connection in self.graph.edges(data="connection"):
+            if not kinds or connection.kind in kinds:
+                yield sender, receiver, connection

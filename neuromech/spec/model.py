@@ -1,0 +1,285 @@
+"""The typed document: what an author may write, after composition, in SI units.
+
+Names inside a scope (the document itself, or an instance of a module) are plain; an element's qualified name is its
+scope's name, a dot, and its own (`LF.RG-F`). A reference is looked up in its own scope first, then outwards.
+"""
+
+from typing import Annotated, Literal
+
+from pydantic import Field, StringConstraints
+
+from neuromech.components.base import Drive, Muscle, Neuron, Sensor, SpecModel, Synapse
+from neuromech.spec.fields import OfCatalogue
+from neuromech.units import (
+    ACCELERATION,
+    ANGLE,
+    CONTACT_DAMPING,
+    CONTACT_STIFFNESS,
+    DIMENSIONLESS,
+    INERTIA,
+    JOINT_DAMPING,
+    JOINT_STIFFNESS,
+    LENGTH,
+    MASS,
+    TIME,
+    Angle,
+    Dimensionless,
+    Length,
+    Quantity,
+    Time,
+    quantity,
+)
+
+NAME_PATTERN = r"^[A-Za-z][A-Za-z0-9_+-]*$"
+Name = Annotated[str, StringConstraints(pattern=NAME_PATTERN)]
+Vector = tuple[Length, Length, Length]
+PositiveTime = Annotated[Quantity, TIME.positive]
+
+
+class Parameter(SpecModel):
+    """A named, bounded knob. `value`, `minimum` and `maximum` keep the author's text: its users check the unit."""
+
+    value: str | int | float
+    minimum: str | int | float | None = None
+    maximum: str | int | float | None = None
+    description: str = ""
+    source: str = ""
+
+
+class Network(SpecModel):
+    """Neurons, drives and the synapses between them, as {kind: {sender: {receiver: synapse}}}."""
+
+    neurons: dict[Name, Annotated[Neuron, OfCatalogue("neuron")]] = {}
+    drives: dict[Name, Annotated[Drive, OfCatalogue("drive")]] = {}
+    synapses: dict[str, dict[str, dict[str, Annotated[Synapse, OfCatalogue("synapse")]]]] = {}
+
+
+class BoxShape(SpecModel):
+    """A box, for pictures only."""
+
+    kind: Literal["box"] = "box"
+    size: tuple[Length, Length, Length]
+    position: Vector = (quantity("0 m"), quantity("0 m"), quantity("0 m"))
+
+
+class CapsuleShape(SpecModel):
+    """A capsule between two points, for pictures only."""
+
+    kind: Literal["capsule"] = "capsule"
+    start: Vector
+    end: Vector
+    radius: Annotated[Quantity, LENGTH.positive]
+
+
+class Segment(SpecModel):
+    """A rigid segment. Its frame sits at the joint to its parent, axes parallel to the parent's at angle zero."""
+
+    mass: Annotated[Quantity, MASS.positive]
+    center_of_mass: Vector = (quantity("0 m"), quantity("0 m"), quantity("0 m"))
+    inertia: Annotated[
+        tuple[
+            Annotated[Quantity, INERTIA.positive],
+            Annotated[Quantity, INERTIA.positive],
+            Annotated[Quantity, INERTIA.positive],
+        ],
+        Field(description="principal moments about the centre of mass, along the segment's x, y and z axes"),
+    ]
+    shape: Annotated[BoxShape | CapsuleShape, Field(discriminator="kind")] | None = None
+
+
+class Joint(SpecModel):
+    """A joint between two segments. Positive rotation follows the right-hand rule about `axis`."""
+
+    kind: Literal["hinge", "slide"] = "hinge"
+    parent: str
+    child: str
+    position: Annotated[Vector, Field(description="of the joint in the parent's frame")]
+    axis: tuple[Dimensionless, Dimensionless, Dimensionless]
+    range: tuple[Angle, Angle] | None = None
+    damping: Annotated[Quantity, JOINT_DAMPING.non_negative] = quantity("0 N m s/rad")
+    stiffness: Annotated[Quantity, JOINT_STIFFNESS.non_negative] = quantity("0 N m/rad")
+    rest_angle: Angle = quantity("0 deg")
+    armature: Annotated[Quantity, INERTIA.non_negative] = quantity("0 kg m^2")
+    initial_angle: Angle = quantity("0 deg")
+
+
+class Contact(SpecModel):
+    """A sphere fixed to a segment that can touch the ground."""
+
+    segment: str
+    position: Vector
+    radius: Annotated[Quantity, LENGTH.positive]
+    friction: Annotated[Quantity, DIMENSIONLESS.non_negative] = quantity("1")
+    stiffness: Annotated[Quantity, CONTACT_STIFFNESS.positive] | None = None
+    damping: Annotated[Quantity, CONTACT_DAMPING.non_negative] | None = None
+
+
+class BodyParts(SpecModel):
+    """The parts of a body that a module may hold."""
+
+    segments: dict[Name, Segment] = {}
+    joints: dict[Name, Joint] = {}
+    contacts: dict[Name, Contact] = {}
+
+
+class Root(SpecModel):
+    """How the root segment is held, and where its frame starts."""
+
+    kind: Literal["fixed", "planar", "free"] = "fixed"
+    position: Vector = (quantity("0 m"), quantity("0 m"), quantity("0 m"))
+    orientation: Annotated[tuple[Angle, Angle, Angle], Field(description="roll, pitch, yaw")] = (
+        quantity("0 deg"),
+        quantity("0 deg"),
+        quantity("0 deg"),
+    )
+
+
+class Body(BodyParts):
+    """The body and the engine that moves it. With `file`, segments and joints come from a URDF or SDF file."""
+
+    engine: Literal["hinge", "pybullet"] = "pybullet"
+    file: str | None = None
+    root: Root = Root()
+
+
+class Ground(SpecModel):
+    """A horizontal plane."""
+
+    height: Length = quantity("0 m")
+    friction: Annotated[Quantity, DIMENSIONLESS.non_negative] = quantity("1")
+
+
+class World(SpecModel):
+    """Gravity (downwards) and ground."""
+
+    gravity: Annotated[Quantity, ACCELERATION.non_negative] = quantity("9.81 m/s^2")
+    ground: Ground | None = None
+
+
+class Scope(SpecModel):
+    """What a module holds, and the document holds too."""
+
+    network: Network = Network()
+    muscles: dict[Name, Annotated[Muscle, OfCatalogue("muscle")]] = {}
+    sensors: dict[Name, Annotated[Sensor, OfCatalogue("sensor")]] = {}
+
+
+class Instance(Scope):
+    """An instance of a module, as it stands after its arguments were put in."""
+
+    body: BodyParts = BodyParts()
+    instances: dict[Name, "Instance"] = {}
+
+
+class Solver(SpecModel):
+    """Numerical method of the network and the coupling with the body."""
+
+    method: Literal["rk4", "exponential_euler", "lsoda", "radau", "dop853"] = "rk4"
+    step: PositiveTime = quantity("0.5 ms")
+    body_step: PositiveTime = quantity("1 ms")
+    coupling: Literal["observer_implicit", "explicit"] = "observer_implicit"
+    relative_tolerance: Annotated[Quantity, DIMENSIONLESS.positive] = quantity("1e-6")
+    absolute_tolerance: Annotated[Quantity, DIMENSIONLESS.positive] = quantity("1e-9")
+
+
+class Uniform(SpecModel):
+    """A uniform distribution over an interval; the unit is that of the state."""
+
+    uniform: tuple[str | int | float, str | int | float]
+
+
+class Ramp(SpecModel):
+    """A parameter moves linearly from one value to another."""
+
+    parameter: str
+    start: Annotated[Quantity, TIME.non_negative]
+    end: PositiveTime
+    to: str | int | float
+
+
+class Event(SpecModel):
+    """Parameters jump to new values at a time."""
+
+    at: Annotated[Quantity, TIME.non_negative]
+    set: dict[str, str | int | float] = Field(min_length=1)
+
+
+class Protocol(SpecModel):
+    """What happens in time. `initial` sets states by name pattern at time zero: a value, or a distribution."""
+
+    duration: PositiveTime
+    seed: Annotated[int, Field(ge=0)] = 0
+    initial: dict[str, str | int | float | Uniform] = {}
+    ramps: dict[Name, Ramp] = {}
+    events: dict[Name, Event] = {}
+    fall: "Fall | None" = None
+
+
+class Fall(SpecModel):
+    """When a body with a moving root counts as fallen: root too low, or tilted too far."""
+
+    height: Length | None = None
+    tilt: Annotated[Quantity, ANGLE.positive] | None = None
+
+
+class RecordGroup(SpecModel):
+    """Signals recorded together, at one rate; `signals` are name patterns with * and ?."""
+
+    signals: Annotated[tuple[str, ...], Field(min_length=1)]
+    every: PositiveTime
+
+
+class Expected(SpecModel):
+    """What a measured value must satisfy: `value` with `within`, or bounds. Text keeps the unit of the measure."""
+
+    value: str | int | float | None = None
+    within: str | int | float | None = None
+    at_least: str | int | float | None = None
+    at_most: str | int | float | None = None
+    equals: str | None = None
+
+
+class Measure(SpecModel):
+    """A measure of `neuromech.analyse` and its arguments."""
+
+    kind: str
+    signal: str | None = None
+    signals: tuple[str, ...] | None = None
+    reference: str | None = None
+    after: Annotated[Quantity, TIME.non_negative] = quantity("0 s")
+
+
+class Claim(SpecModel):
+    """A checked statement about a run of this document.
+
+    `set` changes the document for this claim alone, `seeds` repeats it, `sweep` repeats it over values of one path and
+    judges the successive differences, `compare` judges the ratio of the measured value to that of a changed document.
+    """
+
+    claim: str
+    measure: Measure
+    expected: Expected
+    published: str | int | float | None = None
+    source: str
+    set: dict[str, str | int | float | bool] = {}
+    seeds: Annotated[int, Field(ge=1)] = 1
+    sweep: dict[str, list[str | int | float]] = {}
+    compare: dict[str, str | int | float | bool] = {}
+    compare_with: str | None = None
+
+
+class Experiment(Scope):
+    """A whole document."""
+
+    neuromech: Literal[1]
+    name: str
+    description: str = ""
+    references: dict[str, str] = {}
+    parameters: dict[Name, Parameter] = {}
+    instances: dict[Name, Instance] = {}
+    body: Body | None = None
+    world: World = World()
+    protocol: Protocol
+    solver: Solver = Solver()
+    record: dict[Name, RecordGroup] = {}
+    claims: dict[Name, Claim] = {}
