@@ -9,7 +9,13 @@ from neuromech.components.base import Component, Family
 from neuromech.components.muscles import BrownMuscle, ConstantMomentArms, StraightLines
 from neuromech.components.neurons import RateNeuron, RybakInterneuron, RybakNeuron, StaticNeuron
 from neuromech.components.sensors import JointSensor, LegLoadSensor, LinkSensor, StretchSensor
-from neuromech.components.synapses import DescendingDrive, ExcitatorySynapse, InhibitorySynapse, InterlimbSynapse
+from neuromech.components.synapses import (
+    DescendingDrive,
+    ExcitatorySynapse,
+    FictiveLoad,
+    InhibitorySynapse,
+    InterlimbSynapse,
+)
 
 BUILT_IN: tuple[type[Component], ...] = (
     RybakNeuron,
@@ -17,6 +23,7 @@ BUILT_IN: tuple[type[Component], ...] = (
     RateNeuron,
     StaticNeuron,
     DescendingDrive,
+    FictiveLoad,
     ExcitatorySynapse,
     InhibitorySynapse,
     InterlimbSynapse,

@@ -70,7 +70,6 @@ class LegLoadSensor(Sensor):
     gain: Annotated[Quantity, INVERSE_FORCE.non_negative]
     time_constant: Annotated[Quantity, TIME.positive] = quantity("5 ms")
     initial_load: Annotated[Quantity, FORCE.non_negative] = quantity("0 N")
-    constant_load: Annotated[Quantity, FORCE.non_negative] = quantity("0 N")
 
     @staticmethod
     def flow(contact_force: float, time_constant: float) -> tuple[float, float]:
@@ -78,10 +77,9 @@ class LegLoadSensor(Sensor):
         return contact_force / time_constant, 1.0 / time_constant
 
     @staticmethod
-    def output(filtered_load: float, gain: float, constant_load: float) -> tuple[float, float]:
-        """Return feedback₂ = gain × load, and the load (N), to which a constant may be added."""
-        load = filtered_load + constant_load
-        return gain * load, load
+    def output(filtered_load: float, gain: float) -> tuple[float, float]:
+        """Return feedback₂ = gain × load, and the load (N)."""
+        return gain * filtered_load, filtered_load
 
 
 class JointSensor(Sensor):

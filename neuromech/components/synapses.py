@@ -3,7 +3,7 @@
 from typing import Annotated, ClassVar, Literal
 
 from neuromech.components.base import Drive, Port, Synapse
-from neuromech.units import DIMENSIONLESS, TIME, Dimensionless, Quantity, quantity
+from neuromech.units import DIMENSIONLESS, FORCE, INVERSE_FORCE, TIME, Dimensionless, Quantity, quantity
 
 
 class _ConductanceSynapse(Synapse):
@@ -50,3 +50,19 @@ class DescendingDrive(Drive):
     def output(strength: float) -> float:
         """Return the strength as the signal."""
         return strength
+
+
+class FictiveLoad(Drive):
+    """A constant load on a leg that is not there, as leg-load feedback would report it."""
+
+    kind: Literal["fictive_load"] = "fictive_load"
+    source: ClassVar[str] = "Habu 2020 eq. 14 with a constant force"
+    outputs: ClassVar[tuple[Port, ...]] = (Port("signal", ""),)
+
+    force: Annotated[Quantity, FORCE.non_negative]
+    gain: Annotated[Quantity, INVERSE_FORCE.non_negative]
+
+    @staticmethod
+    def output(force: float, gain: float) -> float:
+        """Return feedback₂ = gain × force."""
+        return gain * force
