@@ -1,0 +1,51 @@
+# Every target makes the environment that it needs; `PYTHON` chooses the interpreter to make it with.
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+LOWEST := .venv-lowest
+
+.PHONY: walk test check verify bench test-lowest clean
+
+walk: $(VENV)/.installed  ## validate and run the suspended cat: figures, results, claims
+	$(BIN)/neuromech validate specs
+	$(BIN)/neuromech run specs/cat/suspended.yaml --out results/suspended
+
+test: $(VENV)/.developed  ## the whole fast test-suite
+	$(BIN)/python -m pytest
+
+check: $(VENV)/.developed  ## style, types, layers
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/mypy
+	$(BIN)/python -m pytest --quiet tests/test_layers.py
+
+verify: $(VENV)/.developed  ## the slow proofs, and every claim of the shipped documents
+	$(BIN)/python -m pytest -m slow
+	$(BIN)/neuromech verify specs
+
+bench: $(VENV)/.developed  ## how long the shipped documents take
+	$(BIN)/python tests/benchmarks/real_time.py
+
+test-lowest: $(LOWEST)/.developed  ## the test-suite with the lowest versions that pyproject.toml allows
+	$(LOWEST)/bin/python -m pytest
+
+clean:  ## forget both environments
+	rm -rf $(VENV) $(LOWEST)
+
+$(VENV)/.installed: pyproject.toml
+	$(PYTHON) -c 'import sys; sys.version_info >= (3, 11) or sys.exit("Python 3.11 or newer is needed: make PYTHON=python3.11")'
+	$(BIN)/python -c '' 2>/dev/null || $(PYTHON) -m venv --clear $(VENV)
+	$(BIN)/python -m pip install --quiet --upgrade 'pip>=25.1'
+	$(BIN)/python -m pip install --quiet --editable .
+	touch $@
+
+$(VENV)/.developed: $(VENV)/.installed
+	$(BIN)/python -m pip install --quiet --group dev
+	touch $@
+
+$(LOWEST)/.developed: pyproject.toml
+	$(PYTHON) -m venv --clear $(LOWEST)
+	$(LOWEST)/bin/python -m pip install --quiet 'uv>=0.8'
+	$(LOWEST)/bin/uv pip install --quiet --python $(LOWEST)/bin/python --resolution lowest-direct --editable .
+	$(LOWEST)/bin/uv pip install --quiet --python $(LOWEST)/bin/python --group dev
+	touch $@
