@@ -4,6 +4,8 @@
     ├── DocumentError        exit code 2: the document is wrong; carries every Problem found
     ├── RunError             exit code 3: the run ended early (fell, diverged)
     ├── ClaimError           exit code 4: a claim is not met
+    ├── RecordingError       exit code 2: a results file, or a signal asked of it, is not there
+    ├── MeasureError         exit code 2: a measure or an expectation does not fit the signals it is about
     └── MissingExtraError    exit code 2: an optional dependency is not installed
 
 Anything else that escapes is a bug, and ends with exit code 1.
@@ -81,6 +83,18 @@ class ClaimError(NeuromechError):
     """At least one claim of a document is not met."""
 
     exit_code: ClassVar[int] = 4
+
+
+class RecordingError(NeuromechError):
+    """A results file is not usable, or does not hold the signal that is asked of it."""
+
+    exit_code: ClassVar[int] = 2
+
+
+class MeasureError(NeuromechError):
+    """A measure or an expectation does not fit: unknown kind, missing argument, clash of units."""
+
+    exit_code: ClassVar[int] = 2
 
 
 class MissingExtraError(NeuromechError):

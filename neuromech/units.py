@@ -189,6 +189,29 @@ class Unit:
         }
 
 
+_SI_UNITS = (
+    *("", "s", "m", "kg", "rad", "A", "N", "V", "S", "F", "J", "W", "Pa", "ohm", "1/s", "rad/s", "rad/s^2", "m/s"),
+    *("m/s^2", "kg m^2", "m^2", "N/m", "N s/m", "N s", "N/rad", "N m/rad", "N m s/rad", "1/N", "1/rad", "s/rad", "V/s"),
+)
+
+
+@cache
+def _si_unit_of_dimension() -> dict[str, str]:
+    return {unit_factor(unit)[1]: unit for unit in reversed(_SI_UNITS)}
+
+
+def si_unit(unit: str) -> str:
+    """Return the usual SI unit of the same dimension (`mV` gives `V`, `deg` gives `rad`).
+
+    Raises:
+        ValueError: the unit is unknown, or its dimension has no usual SI unit.
+    """
+    dimension = unit_factor(unit)[1]
+    if dimension not in _si_unit_of_dimension():
+        raise ValueError(f"'{unit}' has no usual SI unit")
+    return _si_unit_of_dimension()[dimension]
+
+
 def repr_short(value: object, length: int = 60) -> str:
     """Return what was found in a document as short text: words quoted, numbers bare, structures named."""
     if isinstance(value, dict):

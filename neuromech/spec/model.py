@@ -240,13 +240,22 @@ class Expected(SpecModel):
 
 
 class Measure(SpecModel):
-    """A measure of `neuromech.analyse` and its arguments."""
+    """A measure of `neuromech.analyse` and its arguments.
+
+    `after` and `until` bound the part of the run that is looked at. `level`, `least_amplitude` and `tolerance` are in
+    units of the signal; `event` says which instant of a cycle a phase is about.
+    """
 
     kind: str
     signal: str | None = None
     signals: tuple[str, ...] | None = None
     reference: str | None = None
     after: Annotated[Quantity, TIME.non_negative] = quantity("0 s")
+    until: PositiveTime | None = None
+    level: str | int | float | None = None
+    least_amplitude: str | int | float | None = None
+    tolerance: str | int | float | None = None
+    event: Literal["onset", "center"] = "onset"
 
 
 class Claim(SpecModel):
