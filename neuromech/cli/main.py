@@ -1,0 +1,167 @@
+"""The entry point: arguments and help of every command; what a command does is loaded when it is called."""
+
+import sys
+from collections.abc import Sequence
+from importlib.metadata import version
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from neuromech.cli.problems import Format
+from neuromech.cli.terminal import exits, report_bug, write_line
+
+Spec = Annotated[Path, typer.Argument(metavar="SPEC", help="A document.")]
+Paths = Annotated[list[Path], typer.Argument(metavar="PATH…", help="Documents, or folders of documents.")]
+Overrides = Annotated[
+    list[str] | None, typer.Option("--set", metavar="PATH=VALUE", help="Change one value of the document; repeatable.")
+]
+Output = Annotated[Path | None, typer.Option(metavar="FILE", help="Where to write; default: stdout.")]
+AsJson = Annotated[bool, typer.Option("--json", help="Write JSON to stdout instead of a table.")]
+Seeds = Annotated[int | None, typer.Option(min=1, help="Repeat each claim over this many seeds.")]
+
+app = typer.Typer(
+    help="Neuromechanical experiments as documents.",
+    epilog="Exit codes: 0 finished, 1 a bug, 2 a bad document or argument, 3 a run ended early, 4 a claim not met.",
+    no_args_is_help=True,
+    add_completion=False,
+    rich_markup_mode=None,
+    pretty_exceptions_enable=False,
+)
+
+
+def main() -> None:
+    """Run the command line; ends the process with the command's exit code."""
+    sys.excepthook = report_bug
+    typer.main.get_command(app)(prog_name="neuromech")
+
+
+def run_arguments(arguments: Sequence[str]) -> None:
+    """Run the command line with these arguments in this process.
+
+    Raises:
+        SystemExit: always, with the exit code.
+    """
+    typer.main.get_command(app)(list(arguments), prog_name="neuromech")
+
+
+@app.callback(invoke_without_command=True)
+def top(shows_version: Annotated[bool, typer.Option("--version", help="Show the version.")] = False) -> None:
+    """Neuromechanical experiments as documents."""
+    if shows_version:
+        write_line(version("neuromech"))
+        raise typer.Exit
+
+
+@app.command()
+@exits
+def run(
+    spec: Spec,
+    overrides: Overrides = None,
+    seed: Annotated[int | None, typer.Option(min=0, help="Seed of the random initial state.")] = None,
+    duration: Annotated[str | None, typer.Option(metavar="TIME", help="Simulate this long, for example '5 s'.")] = None,
+    out: Annotated[Path | None, typer.Option(metavar="DIR", help="Output folder; default: results/<name>.")] = None,
+    as_json: AsJson = False,
+    figures: Annotated[bool, typer.Option(" /--no-figures", help="Draw no figures.")] = True,
+    quiet: Annotated[bool, typer.Option("--quiet", help="No progress bar and no tables.")] = False,
+) -> int:
+    """Simulate a document: results file, figures, summary and the claims that one run can judge."""
+    from neuromech.cli.run import Request, run
+
+    return run(Request(spec, tuple(overrides or ()), seed, duration, out, as_json, figures, quiet))
+
+
+@app.command()
+@exits
+def validate(
+    paths: Paths,
+    form: Annotated[Format, typer.Option("--format", help="How problems are written.")] = Format.TEXT,
+) -> int:
+    """Report everything that is wrong in documents."""
+    from neuromech.cli.validate import validate
+
+    return validate(paths, form)
+
+
+@app.command()
+@exits
+def verify(paths: Paths, as_json: AsJson = False, seeds: Seeds = None) -> int:
+    """Run documents and judge all their claims."""
+    from neuromech.cli.verify import verify
+
+    return verify(paths, as_json, seeds)
+
+
+@app.command()
+@exits
+def explain(
+    spec: Spec,
+    path: Annotated[str, typer.Argument(metavar="PATH", help="Dotted path of a value.")],
+    overrides: Overrides = None,
+) -> int:
+    """Say which file and line gave a value, and what the value means."""
+    from neuromech.cli.explain import explain
+
+    return explain(spec, path, tuple(overrides or ()))
+
+
+@app.command()
+@exits
+def schema(out: Output = None) -> int:
+    """Write the JSON Schema of documents, for editors."""
+    from neuromech.cli.schema import schema
+
+    return schema(out)
+
+
+@app.command()
+@exits
+def graph(spec: Spec, out: Output = None, overrides: Overrides = None) -> int:
+    """List the elements of a model, or draw it (.svg) or export it (.graphml)."""
+    from neuromech.cli.graph import graph
+
+    return graph(spec, out, tuple(overrides or ()))
+
+
+@app.command()
+@exits
+def diff(
+    first: Annotated[Path, typer.Argument(metavar="A", help="A document.")],
+    second: Annotated[Path, typer.Argument(metavar="B", help="Another document.")],
+) -> int:
+    """Show how two models differ in structure and parameters."""
+    from neuromech.cli.diff import diff
+
+    return diff(first, second)
+
+
+@app.command(name="compile")
+@exits
+def compile_(spec: Spec, overrides: Overrides = None) -> int:
+    """Show the generated program of a model."""
+    from neuromech.cli.compile import compile_
+
+    return compile_(spec, tuple(overrides or ()))
+
+
+@app.command()
+@exits
+def components(
+    kind: Annotated[str | None, typer.Argument(metavar="KIND", help="One kind, or one family.")] = None,
+) -> int:
+    """Show the vocabulary: kinds, parameters, units, bounds, ports and sources."""
+    from neuromech.cli.components import components
+
+    return components(kind)
+
+
+@app.command()
+@exits
+def new(
+    name: Annotated[str, typer.Argument(metavar="NAME", help="Name of the new document; NAME.yaml is written.")],
+    base: Annotated[str, typer.Option("--from", metavar="SPEC", help="A shipped document, such as cat/suspended.")],
+) -> int:
+    """Start a document of your own from one that comes with the package."""
+    from neuromech.cli.new import new
+
+    return new(name, base)

@@ -1,0 +1,106 @@
+"""The two streams of a command: results to stdout, everything that accompanies them to stderr."""
+
+import json
+import os
+import sys
+from collections.abc import Callable
+from functools import wraps
+from types import TracebackType
+from typing import Any, ParamSpec
+
+import typer
+from rich.console import Console
+
+from neuromech.errors import DocumentError, NeuromechError
+
+FINISHED = 0
+BUG = 1
+BAD_DOCUMENT = 2
+ENDED_EARLY = 3
+CLAIM_NOT_MET = 4
+TRACEBACK_VARIABLE = "NEUROMECH_TRACEBACK"
+
+Arguments = ParamSpec("Arguments")
+
+
+def results() -> Console:
+    """Return the console of stdout: what the user asked for."""
+    return Console(file=sys.stdout, highlight=False, soft_wrap=True)
+
+
+def notes() -> Console:
+    """Return the console of stderr: progress, notes, errors."""
+    return Console(file=sys.stderr, highlight=False, soft_wrap=True)
+
+
+def write_line(text: str) -> None:
+    """Write plain text and a line end to stdout, without markup or wrapping."""
+    sys.stdout.write(f"{text}\n")
+
+
+def write_json(value: object) -> None:
+    """Write one JSON value to stdout.
+
+    Raises:
+        ValueError: the value holds NaN or infinity, which JSON has no word for.
+    """
+    write_line(json.dumps(value, indent=2, ensure_ascii=False, allow_nan=False))
+
+
+def complain(text: str) -> None:
+    """Write an error to stderr as it is."""
+    sys.stderr.write(f"{text}\n")
+
+
+def exits(command: Callable[Arguments, int]) -> Callable[Arguments, None]:
+    """Turn a function that returns an exit code or raises our errors into a command.
+
+    Our own errors and those of the file system end in a message and an exit code. Others are bugs and pass.
+    """
+
+    @wraps(command)
+    def ending(*arguments: Arguments.args, **options: Arguments.kwargs) -> None:
+        raise typer.Exit(_exit_code(lambda: command(*arguments, **options)))
+
+    return ending
+
+
+def _exit_code(command: Callable[[], int]) -> int:
+    try:
+        code = command()
+        sys.stdout.flush()
+    except DocumentError as error:
+        complain("\n".join(str(problem) for problem in error.problems))
+        return BAD_DOCUMENT
+    except NeuromechError as error:
+        complain(str(error))
+        return error.exit_code
+    except KeyboardInterrupt:
+        complain("stopped by the user")
+        return ENDED_EARLY
+    except BrokenPipeError:
+        _forget_stdout()
+        return FINISHED
+    except OSError as error:
+        complain(_file_system_message(error))
+        return BAD_DOCUMENT
+    return code
+
+
+def _file_system_message(error: OSError) -> str:
+    place = f"{error.filename}: " if error.filename else ""
+    return f"{place}{error.strerror or error}. Hint: check that the path exists and that you may read or write it"
+
+
+def _forget_stdout() -> None:
+    # Python flushes stdout once more when it ends; without this the closed pipe would be reported a second time.
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
+def report_bug(kind: type[BaseException], error: BaseException, traceback: TracebackType | None) -> Any:
+    """Say in one line that a bug was met, or print the traceback where the environment asks for it."""
+    if os.environ.get(TRACEBACK_VARIABLE):
+        sys.__excepthook__(kind, error, traceback)
+    else:
+        first = str(error).partition("\n")[0]
+        complain(f"this is a bug in neuromech: {kind.__name__}: {first}. Hint: {TRACEBACK_VARIABLE}=1 shows where")
