@@ -1,0 +1,236 @@
+"""Joint-space inertia of a tree by the composite-rigid-body algorithm. Compiled, without allocation.
+
+Everything is expressed in world axes about the origin of the root frame, so that composite inertias simply add.
+
+Source: Featherstone 2008, Rigid Body Dynamics Algorithms, section 6.2, doi:10.1007/978-1-4899-7560-7.
+"""
+
+from math import sqrt
+
+from neuromech.compiler.kinematics import world_axis
+from neuromech.compiler.numerics import Floats, Integers, compiled
+from neuromech.compiler.tree import (
+    ARMATURE,
+    CENTER,
+    FIXED_ROOT,
+    FREE_ROOT,
+    HINGE,
+    INERTIA,
+    JOINT,
+    KIND,
+    MASS,
+    PARENT,
+)
+
+# Columns of a work row: mass, mass × centre (3), inertia xx yy zz xy xz yz, joint motion (angular, linear), and the
+# force that this motion needs from the segment and all beyond it (moment, force).
+_MOMENT = 1
+_SECOND = 4
+_MOTION = 10
+_FORCE = 16
+
+
+@compiled
+def mass_matrix(
+    topology: Integers, geometry: Floats, root: int, rotation: Floats, position: Floats, work: Floats, inertia: Floats
+) -> None:
+    """Fill the matrix that maps joint accelerations to joint torques when nothing else acts, armature included.
+
+    For a root that moves this is the Schur complement that eliminates the root's motion. A planar root must be turned
+    about y only.
+
+    Args:
+        topology: see `Tree`.
+        geometry: see `Tree`.
+        root: see `Tree`.
+        rotation: from `forward_kinematics`.
+        position: from `forward_kinematics`.
+        work: from `Tree.new_work`.
+        inertia: filled; (joints, joints) in kg m².
+    """
+    count = topology.shape[0]
+    for i in range(count):
+        _segment_inertia(geometry, rotation, position, i, work[i])
+    for i in range(count - 1, 0, -1):
+        for k in range(_MOTION):
+            work[topology[i, PARENT], k] += work[i, k]
+    for i in range(1, count):
+        _joint_motion(topology, geometry, rotation, position, i, work[i])
+    inertia[:, :] = 0.0
+    for i in range(1, count):
+        _joint_row(topology, geometry, i, work, inertia)
+    if root != FIXED_ROOT:
+        _eliminate_root(topology, root, work, inertia)
+
+
+@compiled
+def _segment_inertia(geometry: Floats, rotation: Floats, position: Floats, i: int, row: Floats) -> None:
+    mass = geometry[i, MASS]
+    a = geometry[i, INERTIA]
+    b = geometry[i, INERTIA + 1]
+    c = geometry[i, INERTIA + 2]
+    r = rotation[i]
+    x = _center(geometry, rotation, position, i, 0)
+    y = _center(geometry, rotation, position, i, 1)
+    z = _center(geometry, rotation, position, i, 2)
+    row[0] = mass
+    row[_MOMENT] = mass * x
+    row[_MOMENT + 1] = mass * y
+    row[_MOMENT + 2] = mass * z
+    row[_SECOND] = _turned(r, a, b, c, 0, 0) + mass * (y * y + z * z)
+    row[_SECOND + 1] = _turned(r, a, b, c, 1, 1) + mass * (x * x + z * z)
+    row[_SECOND + 2] = _turned(r, a, b, c, 2, 2) + mass * (x * x + y * y)
+    row[_SECOND + 3] = _turned(r, a, b, c, 0, 1) - mass * x * y
+    row[_SECOND + 4] = _turned(r, a, b, c, 0, 2) - mass * x * z
+    row[_SECOND + 5] = _turned(r, a, b, c, 1, 2) - mass * y * z
+
+
+@compiled
+def _center(geometry: Floats, rotation: Floats, position: Floats, i: int, k: int) -> float:
+    return (
+        position[i, k]
+        - position[0, k]
+        + rotation[i, k, 0] * geometry[i, CENTER]
+        + rotation[i, k, 1] * geometry[i, CENTER + 1]
+        + rotation[i, k, 2] * geometry[i, CENTER + 2]
+    )
+
+
+@compiled
+def _turned(r: Floats, a: float, b: float, c: float, j: int, k: int) -> float:
+    return r[j, 0] * a * r[k, 0] + r[j, 1] * b * r[k, 1] + r[j, 2] * c * r[k, 2]
+
+
+@compiled
+def _joint_motion(
+    topology: Integers, geometry: Floats, rotation: Floats, position: Floats, i: int, row: Floats
+) -> None:
+    a = world_axis(geometry, rotation, i, 0)
+    b = world_axis(geometry, rotation, i, 1)
+    c = world_axis(geometry, rotation, i, 2)
+    if topology[i, KIND] == HINGE:
+        x = position[i, 0] - position[0, 0]
+        y = position[i, 1] - position[0, 1]
+        z = position[i, 2] - position[0, 2]
+        _store(row, _MOTION, a, b, c, y * c - z * b, z * a - x * c, x * b - y * a)
+    else:
+        _store(row, _MOTION, 0.0, 0.0, 0.0, a, b, c)
+    _apply_inertia(row)
+
+
+@compiled
+def _store(row: Floats, at: int, a: float, b: float, c: float, x: float, y: float, z: float) -> None:
+    row[at] = a
+    row[at + 1] = b
+    row[at + 2] = c
+    row[at + 3] = x
+    row[at + 4] = y
+    row[at + 5] = z
+
+
+@compiled
+def _apply_inertia(row: Floats) -> None:
+    # Spatial inertia times motion: moment = I ω + h × v, force = m v − h × ω.
+    m, hx, hy, hz = row[0], row[1], row[2], row[3]
+    xx, yy, zz, xy, xz, yz = row[4], row[5], row[6], row[7], row[8], row[9]
+    a, b, c, x, y, z = row[10], row[11], row[12], row[13], row[14], row[15]
+    _store(
+        row,
+        _FORCE,
+        xx * a + xy * b + xz * c + hy * z - hz * y,
+        xy * a + yy * b + yz * c + hz * x - hx * z,
+        xz * a + yz * b + zz * c + hx * y - hy * x,
+        m * x - (hy * c - hz * b),
+        m * y - (hz * a - hx * c),
+        m * z - (hx * b - hy * a),
+    )
+
+
+@compiled
+def _joint_row(topology: Integers, geometry: Floats, i: int, work: Floats, inertia: Floats) -> None:
+    row = topology[i, JOINT]
+    j = i
+    while j > 0:
+        value = 0.0
+        for k in range(6):
+            value += work[j, _MOTION + k] * work[i, _FORCE + k]
+        column = topology[j, JOINT]
+        inertia[row, column] = value
+        inertia[column, row] = value
+        j = topology[j, PARENT]
+    inertia[row, row] += geometry[i, ARMATURE]
+
+
+@compiled
+def _eliminate_root(topology: Integers, root: int, work: Floats, inertia: Floats) -> None:
+    count = topology.shape[0]
+    factor = work[count : count + 6]
+    _root_inertia(work[0], factor)
+    if root != FREE_ROOT:
+        _keep_planar(work, count, factor)
+    _factorise(factor, root)
+    for i in range(1, count):
+        _solve(factor, root, work[i])
+    for i in range(1, count):
+        for j in range(1, i + 1):
+            value = 0.0
+            for k in range(root):
+                value += work[i, _FORCE + k] * work[j, _FORCE + k]
+            row = topology[i, JOINT]
+            column = topology[j, JOINT]
+            inertia[row, column] -= value
+            if i != j:
+                inertia[column, row] -= value
+
+
+@compiled
+def _root_inertia(row: Floats, factor: Floats) -> None:
+    factor[:, :6] = 0.0
+    m, hx, hy, hz = row[0], row[1], row[2], row[3]
+    factor[0, 0], factor[1, 1], factor[2, 2] = row[4], row[5], row[6]
+    factor[1, 0] = row[7]
+    factor[2, 0] = row[8]
+    factor[2, 1] = row[9]
+    factor[3, 3] = factor[4, 4] = factor[5, 5] = m
+    factor[3, 1] = hz
+    factor[3, 2] = -hy
+    factor[4, 0] = -hz
+    factor[4, 2] = hx
+    factor[5, 0] = hy
+    factor[5, 1] = -hx
+
+
+@compiled
+def _keep_planar(work: Floats, count: int, factor: Floats) -> None:
+    # Rows and columns of rotation about y and motion along x and z move to the front.
+    yy, xy, zy, m = factor[1, 1], factor[3, 1], factor[5, 1], factor[3, 3]
+    factor[:3, :3] = 0.0
+    factor[0, 0] = yy
+    factor[1, 0] = xy
+    factor[2, 0] = zy
+    factor[1, 1] = m
+    factor[2, 2] = m
+    for i in range(1, count):
+        work[i, _FORCE] = work[i, _FORCE + 1]
+        work[i, _FORCE + 1] = work[i, _FORCE + 3]
+        work[i, _FORCE + 2] = work[i, _FORCE + 5]
+
+
+@compiled
+def _factorise(factor: Floats, size: int) -> None:
+    # Cholesky decomposition in place, lower triangle.
+    for i in range(size):
+        for j in range(i + 1):
+            value = factor[i, j]
+            for k in range(j):
+                value -= factor[i, k] * factor[j, k]
+            factor[i, j] = sqrt(value) if i == j else value / factor[j, j]
+
+
+@compiled
+def _solve(factor: Floats, size: int, row: Floats) -> None:
+    for i in range(size):
+        value = row[_FORCE + i]
+        for k in range(i):
+            value -= factor[i, k] * row[_FORCE + k]
+        row[_FORCE + i] = value / factor[i, i]
