@@ -206,6 +206,8 @@ def si_unit(unit: str) -> str:
     Raises:
         ValueError: the unit is unknown, or its dimension has no usual SI unit.
     """
+    if unit in _SI_UNITS:
+        return unit
     dimension = unit_factor(unit)[1]
     if dimension not in _si_unit_of_dimension():
         raise ValueError(f"'{unit}' has no usual SI unit")

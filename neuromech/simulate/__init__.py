@@ -1,0 +1,1 @@
+"""Time: the loop, the clocks, schedules, recording and outcome."""

@@ -1,0 +1,248 @@
+"""What a run leaves behind: its outcome, its provenance, and the recorded signals with dimensions and units."""
+
+import json
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, field
+from fnmatch import fnmatchcase
+from typing import Any, Literal
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from neuromech.errors import RecordingError, did_you_mean
+from neuromech.units import unit_factor
+
+Array = NDArray[np.float64]
+OutcomeKind = Literal["finished", "fell", "diverged", "stopped"]
+ParameterValue = str | int | float
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """How a run ended.
+
+    Args:
+        kind: `finished` when the protocol came to its end, else what ended it.
+        time: simulated time of the end (s).
+        message: what happened, naming for example the state that diverged; empty for a finished run.
+    """
+
+    kind: OutcomeKind
+    time: float
+    message: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Provenance:
+    """Where a recording comes from.
+
+    Args:
+        name: name of the document.
+        specification: the resolved document as YAML.
+        version: version of neuromech.
+        versions: versions of the packages that did the numbers, by name.
+        engine: engine of the body, `none` for a network alone.
+        platform: operating system, machine and Python.
+        seed: seed of the run.
+        parameters: values of the named parameters, as written in the resolved document.
+        outcome: how the run ended.
+        simulated_seconds: simulated time (s).
+        wall_seconds: time that the run took on the clock (s).
+    """
+
+    name: str
+    specification: str = field(repr=False)
+    version: str
+    versions: Mapping[str, str]
+    engine: str
+    platform: str
+    seed: int
+    parameters: Mapping[str, ParameterValue]
+    outcome: Outcome
+    simulated_seconds: float
+    wall_seconds: float
+
+    def to_attributes(self) -> dict[str, Any]:
+        """Return flat attributes of a results file; maps become JSON text."""
+        attributes = asdict(self)
+        for key in ("versions", "parameters", "outcome"):
+            attributes[key] = json.dumps(attributes[key], ensure_ascii=False)
+        return attributes
+
+    @classmethod
+    def from_attributes(cls, attributes: Mapping[Any, Any]) -> "Provenance":
+        """Read back what `to_attributes` wrote.
+
+        Raises:
+            KeyError: an attribute is missing.
+            ValueError: an attribute is malformed.
+        """
+        return cls(
+            name=str(attributes["name"]),
+            specification=str(attributes["specification"]),
+            version=str(attributes["version"]),
+            versions=json.loads(attributes["versions"]),
+            engine=str(attributes["engine"]),
+            platform=str(attributes["platform"]),
+            seed=int(attributes["seed"]),
+            parameters=json.loads(attributes["parameters"]),
+            outcome=Outcome(**json.loads(attributes["outcome"])),
+            simulated_seconds=float(attributes["simulated_seconds"]),
+            wall_seconds=float(attributes["wall_seconds"]),
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class GroupData:
+    """Signals sampled together.
+
+    Args:
+        time: sample times, shape (n,) (s), strictly increasing.
+        names: qualified signal names (`LF.RG-F.activity`), k of them, in authored order.
+        values: shape (n, k), column order as `names`, each in its unit.
+        units: unit of each column as text of `units.txt`, empty for a number.
+    """
+
+    time: Array
+    names: tuple[str, ...]
+    values: Array
+    units: tuple[str, ...]
+
+    def __post_init__(self) -> None:
+        """Refuse shapes that do not belong together.
+
+        Raises:
+            ValueError: shapes differ, time does not increase, a name repeats or has no dot, or a unit is unknown.
+        """
+        expected = (len(self.time), len(self.names))
+        if self.values.shape != expected or len(self.units) != len(self.names):
+            raise ValueError(f"values must be {expected} with {len(self.names)} units (got {self.values.shape})")
+        if np.any(np.diff(self.time) <= 0.0):
+            raise ValueError("time must increase strictly")
+        if len(set(self.names)) < len(self.names) or not all("." in name for name in self.names):
+            raise ValueError("signal names must differ and have the form element.quantity")
+        for unit in self.units:
+            unit_factor(unit)
+
+
+@dataclass(frozen=True, slots=True)
+class _Column:
+    group: str
+    variable: str
+    index: int
+    step: float
+
+
+class Recording:
+    """Recorded signals and their provenance, around an xarray tree with one node per record group.
+
+    A node has a coordinate `time` (s) and one variable per quantity with the dimensions (time, element): `activity`
+    has the coordinate `activity_element` that holds the qualified names of its elements.
+    """
+
+    def __init__(self, tree: xr.DataTree) -> None:
+        """Wrap a tree made by `from_groups` or read from a results file.
+
+        Raises:
+            KeyError: the tree has no provenance of ours.
+            ValueError: its provenance is malformed.
+        """
+        self.tree = tree
+        self.provenance = Provenance.from_attributes(tree.attrs)
+        self._columns = _index(tree)
+
+    @classmethod
+    def from_groups(cls, groups: Mapping[str, GroupData], provenance: Provenance) -> "Recording":
+        """Build a recording from arrays, one entry per record group."""
+        nodes = {f"/{name}": _dataset(data) for name, data in groups.items()}
+        root = xr.Dataset(attrs=provenance.to_attributes())
+        return cls(xr.DataTree.from_dict({"/": root, **nodes}))
+
+    @property
+    def outcome(self) -> Outcome:
+        """How the run ended."""
+        return self.provenance.outcome
+
+    @property
+    def names(self) -> list[str]:
+        """Qualified names of all signals, in recorded order."""
+        return list(self._columns)
+
+    def match(self, *patterns: str) -> list[str]:
+        """Return the signals that match any of the patterns (`*` and `?`), in recorded order."""
+        return [name for name in self._columns if any(fnmatchcase(name, pattern) for pattern in patterns)]
+
+    def signal(self, name: str) -> tuple[Array, Array]:
+        """Return the times (s), shape (n,), and values, shape (n,), of a signal.
+
+        Of a signal recorded in several groups, the samples of the finest rate are returned.
+
+        Raises:
+            RecordingError: the signal was not recorded.
+        """
+        column = self._column(name)
+        group = self.tree.children[column.group].to_dataset()
+        values = group[column.variable].values[:, column.index]
+        return np.asarray(group["time"].values), np.ascontiguousarray(values)
+
+    def unit(self, name: str) -> str:
+        """Return the unit of a signal, empty for a number.
+
+        Raises:
+            RecordingError: the signal was not recorded.
+        """
+        column = self._column(name)
+        return str(self.tree.children[column.group].data_vars[column.variable].attrs["units"])
+
+    def _column(self, name: str) -> _Column:
+        if name not in self._columns:
+            raise RecordingError(f"signal '{name}' was not recorded. Hint: {did_you_mean(name, self._columns)}")
+        return self._columns[name]
+
+
+def _dataset(data: GroupData) -> xr.Dataset:
+    variables: dict[str, xr.Variable] = {}
+    coordinates: dict[str, xr.Variable] = {"time": xr.Variable("time", data.time, {"units": "s"})}
+    for (quantity, unit, variable), columns in _variables(data).items():
+        dimension = f"{variable}_element"
+        elements = np.array([data.names[column].rpartition(".")[0] for column in columns], dtype=np.str_)
+        coordinates[dimension] = xr.Variable(dimension, elements)
+        attributes = {"units": unit, "quantity": quantity}
+        variables[variable] = xr.Variable(("time", dimension), data.values[:, columns], attributes)
+    return xr.Dataset(variables, coordinates, {"signals": json.dumps(data.names)})
+
+
+def _variables(data: GroupData) -> dict[tuple[str, str, str], list[int]]:
+    """Return {(quantity, unit, variable name): columns}; the unit joins the name where one quantity has several."""
+    quantities = [name.rpartition(".")[2] for name in data.names]
+    units_of = {
+        quantity: {u for q, u in zip(quantities, data.units, strict=True) if q == quantity} for quantity in quantities
+    }
+    found: dict[tuple[str, str, str], list[int]] = {}
+    for column, (quantity, unit) in enumerate(zip(quantities, data.units, strict=True)):
+        suffix = "_" + _word(unit) if len(units_of[quantity]) > 1 else ""
+        found.setdefault((quantity, unit, quantity + suffix), []).append(column)
+    return found
+
+
+def _word(unit: str) -> str:
+    return unit.replace("/", " per ").replace("^", "").replace("  ", " ").strip().replace(" ", "_") or "number"
+
+
+def _index(tree: xr.DataTree) -> dict[str, _Column]:
+    """Return where each signal is; the recorded order of a group is in its attribute `signals`."""
+    found: dict[str, _Column] = {}
+    for group, node in tree.children.items():
+        data = node.to_dataset()
+        time = data["time"].values
+        step = float((time[-1] - time[0]) / (len(time) - 1)) if len(time) > 1 else np.inf
+        columns = {
+            f"{element}.{variable.attrs['quantity']}": _Column(group, str(name), index, step)
+            for name, variable in data.data_vars.items()
+            for index, element in enumerate(data[f"{name}_element"].values)
+        }
+        for signal in json.loads(node.attrs["signals"]):
+            if signal not in found or step < found[signal].step:
+                found[signal] = columns[signal]
+    return found

@@ -1,0 +1,74 @@
+"""One self-describing results file per run: NetCDF4, complete or not there at all."""
+
+import os
+from pathlib import Path
+from typing import Any
+
+import xarray as xr
+
+from neuromech.errors import RecordingError
+from neuromech.simulate.recording import Recording
+
+FORMAT = "neuromech recording 1"
+_COMPRESSION = {"zlib": True, "complevel": 1, "shuffle": True, "_FillValue": None}
+
+
+def save(recording: Recording, file: Path) -> None:
+    """Write a recording to a NetCDF4 file.
+
+    The file gets its name only when it is complete. A killed process leaves at most a file whose name ends in
+    `.partial` beside it.
+
+    Raises:
+        RecordingError: the file cannot be written.
+    """
+    try:
+        file.parent.mkdir(parents=True, exist_ok=True)
+        _write_and_rename(recording, file)
+    except OSError as error:
+        raise RecordingError(f"{file} cannot be written: {error}") from error
+
+
+def load(file: Path) -> Recording:
+    """Read a recording from a file that `save` wrote, wholly into memory.
+
+    Raises:
+        RecordingError: the file is missing, unreadable, or no recording of ours.
+    """
+    if not file.is_file():
+        raise RecordingError(f"{file} does not exist. Hint: 'neuromech run' writes results files")
+    try:
+        with xr.open_datatree(file, engine="h5netcdf", decode_times=False, mask_and_scale=False) as opened:
+            tree = opened.load()
+        if tree.attrs.pop("format", None) != FORMAT:
+            raise _foreign(file)
+        return Recording(tree)
+    except (OSError, KeyError, ValueError, TypeError) as error:
+        raise _foreign(file) from error
+
+
+def _write_and_rename(recording: Recording, file: Path) -> None:
+    partial = file.with_name(f".{file.name}.{os.getpid()}.partial")
+    try:
+        _write(recording, partial)
+        os.replace(partial, file)
+    finally:
+        partial.unlink(missing_ok=True)
+
+
+def _write(recording: Recording, file: Path) -> None:
+    tree = recording.tree.copy()
+    tree.attrs = {**tree.attrs, "format": FORMAT}
+    tree.to_netcdf(file, engine="h5netcdf", encoding=_encoding(tree))
+
+
+def _encoding(tree: xr.DataTree) -> dict[str, dict[str, Any]]:
+    """Compress variables; keep xarray from adding fill values, which would make missing data out of NaN."""
+    return {
+        node.path: {str(name): _COMPRESSION for name in node.data_vars} | {"time": {"_FillValue": None}}
+        for node in tree.children.values()
+    }
+
+
+def _foreign(file: Path) -> RecordingError:
+    return RecordingError(f"{file} is no recording of neuromech. Hint: give a results file of 'neuromech run'")
