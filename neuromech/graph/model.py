@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
 import networkx as nx
 
@@ -12,9 +12,6 @@ from neuromech.spec.model import Contact, Joint, Root, Segment, World
 
 NodeFamily = Literal["neuron", "drive", "muscle", "sensor", "joint", "segment", "contact"]
 EdgeKind = Literal["synapse", "wire", "crossing", "structure"]
-
-if TYPE_CHECKING:
-    Graph = nx.MultiDiGraph[str]
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,7 +68,7 @@ class ModelGraph:
     """The whole model. `graph` is a MultiDiGraph over qualified names, nodes in authored order."""
 
     document: Document
-    graph: "Graph"
+    graph: "nx.MultiDiGraph[str]"
     body: BodyModel | None
 
     def elements(self, *families: NodeFamily) -> Iterator[Element]:
