@@ -87,18 +87,20 @@ def _segment_inertia(geometry: Floats, rotation: Floats, position: Floats, i: in
 
 @compiled
 def _center(geometry: Floats, rotation: Floats, position: Floats, i: int, k: int) -> float:
-    return (
+    component: float = (
         position[i, k]
         - position[0, k]
         + rotation[i, k, 0] * geometry[i, CENTER]
         + rotation[i, k, 1] * geometry[i, CENTER + 1]
         + rotation[i, k, 2] * geometry[i, CENTER + 2]
     )
+    return component
 
 
 @compiled
 def _turned(r: Floats, a: float, b: float, c: float, j: int, k: int) -> float:
-    return r[j, 0] * a * r[k, 0] + r[j, 1] * b * r[k, 1] + r[j, 2] * c * r[k, 2]
+    component: float = r[j, 0] * a * r[k, 0] + r[j, 1] * b * r[k, 1] + r[j, 2] * c * r[k, 2]
+    return component
 
 
 @compiled

@@ -122,11 +122,12 @@ def quaternion_rotation(x: float, y: float, z: float, w: float, rotation: Floats
 @compiled
 def world_axis(geometry: Floats, rotation: Floats, segment: int, k: int) -> float:
     """Return component `k` of a segment's joint axis in world axes."""
-    return (
+    component: float = (
         rotation[segment, k, 0] * geometry[segment, AXIS]
         + rotation[segment, k, 1] * geometry[segment, AXIS + 1]
         + rotation[segment, k, 2] * geometry[segment, AXIS + 2]
     )
+    return component
 
 
 @compiled

@@ -47,8 +47,8 @@ class Tree:
         contacts: names, in the order of contact forces everywhere.
         topology: (segments, 3): row of the parent (−1 for the root), index of the joint to it (−1 for the root),
             and its kind, `HINGE` or `SLIDE` (0 for the root).
-        geometry: (segments, 14): joint position in the parent's frame (3), joint axis as a unit vector (3), mass, centre
-            of mass (3), principal moments of inertia about it (3), armature of the joint.
+        geometry: (segments, 14): joint position in the parent's frame (3), joint axis as a unit vector (3), mass,
+            centre of mass (3), principal moments of inertia about it (3), armature of the joint.
         root: number of ways the root can move: `FIXED_ROOT`, `PLANAR_ROOT` (x, z and rotation about y) or `FREE_ROOT`.
         contact_segment: (contacts,) row of the segment that carries the contact.
         contact_position: (contacts, 3) centre of the contact sphere in the segment's frame.

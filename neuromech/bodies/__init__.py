@@ -1,0 +1,1 @@
+"""Bodies: one interface, several engines."""

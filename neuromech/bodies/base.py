@@ -1,0 +1,108 @@
+"""What the simulation asks of a body, whatever engine moves it."""
+
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
+from dataclasses import dataclass
+from types import TracebackType
+from typing import Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from neuromech.compiler.body_state import BodyState
+from neuromech.errors import Problem
+from neuromech.spec.model import Root
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class Engine:
+    """Name and version of the engine that moves a body, for the provenance of a run."""
+
+    name: str
+    version: str
+
+
+class Body(ABC):
+    """A body that moves in steps of equal length. Opened at the initial angles of its joints, at rest.
+
+    `damping`, `stiffness` and `rest_angle` of joints are no business of an engine: the coupling adds them to the
+    torques that `step` gets, so an engine sets its own joint damping to zero. `range` of joints is its business.
+
+    Attributes:
+        joints: names of the joints, in the order of angles and torques.
+        contacts: names of the contacts, in the order of contact forces.
+        step_seconds: time by which one step advances the body.
+        engine: what moves the body.
+        layout: where things stand in the state array.
+    """
+
+    joints: tuple[str, ...]
+    contacts: tuple[str, ...]
+    step_seconds: float
+    engine: Engine
+    layout: BodyState
+
+    @abstractmethod
+    def read(self, state: Floats) -> None:
+        """Fill the state array; (`layout.size`,), see `BodyState`.
+
+        Raises:
+            RunError: the engine failed, or the body is closed.
+        """
+
+    @abstractmethod
+    def step(self, torque: Floats) -> None:
+        """Apply joint torques, held for the whole step, and advance by exactly one step.
+
+        Args:
+            torque: (joints,) in N m, for slides in N.
+
+        Raises:
+            RunError: the engine failed, or the body is closed.
+        """
+
+    @abstractmethod
+    def reset(self, angles: Sequence[float] | Floats, velocities: Sequence[float] | Floats | None = None) -> None:
+        """Put the body to its first root pose with given joint angles and velocities; everything else is as new.
+
+        Args:
+            angles: (joints,) in rad, of slides in m.
+            velocities: (joints,) in rad/s, of slides in m/s; at rest where not given.
+
+        Raises:
+            RunError: the engine failed, or the body is closed.
+        """
+
+    @abstractmethod
+    def close(self) -> None:
+        """Free the engine. A closed body can be closed again."""
+
+    def __enter__(self) -> Self:
+        """Return the body; it is closed at the end of the `with` block."""
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        """Close the body."""
+        self.close()
+
+
+def body_problem(message: str, hint: str | None = None) -> Problem:
+    """Return the problem of a document whose body an engine cannot move."""
+    return Problem("body", "body", message, hint=hint)
+
+
+def root_quaternion(root: Root) -> tuple[float, float, float, float]:
+    """Return the unit quaternion x, y, z, w of the root's first orientation, Rz(yaw) Ry(pitch) Rx(roll)."""
+    roll, pitch, yaw = (0.5 * float(angle) for angle in root.orientation)
+    cr, cp, cy = np.cos((roll, pitch, yaw)).tolist()
+    sr, sp, sy = np.sin((roll, pitch, yaw)).tolist()
+    return (
+        sr * cp * cy - cr * sp * sy,
+        cr * sp * cy + sr * cp * sy,
+        cr * cp * sy - sr * sp * cy,
+        cr * cp * cy + sr * sp * sy,
+    )
