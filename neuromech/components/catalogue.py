@@ -8,7 +8,7 @@ from typing import Self
 from neuromech.components.base import Component, Family
 from neuromech.components.muscles import BrownMuscle, ConstantMomentArms, StraightLines
 from neuromech.components.neurons import RateNeuron, RybakInterneuron, RybakNeuron, StaticNeuron
-from neuromech.components.sensors import JointSensor, LegLoadSensor, LinkSensor, StretchSensor
+from neuromech.components.sensors import JointSensor, LegLoadSensor, LinkSensor, MuscleSpindle, StretchSensor
 from neuromech.components.synapses import (
     DescendingDrive,
     ExcitatorySynapse,
@@ -31,6 +31,7 @@ BUILT_IN: tuple[type[Component], ...] = (
     ConstantMomentArms,
     StraightLines,
     StretchSensor,
+    MuscleSpindle,
     LegLoadSensor,
     JointSensor,
     LinkSensor,

@@ -57,6 +57,32 @@ class StretchSensor(Sensor):
         return scale * max(0.0, velocity_gain * power + length_gain * stretch)
 
 
+class MuscleSpindle(Sensor):
+    """Ia afferent of a muscle that is not gated by load: power of the stretch velocity plus stretch beyond a length."""
+
+    kind: Literal["muscle_spindle"] = "muscle_spindle"
+    source: ClassVar[str] = "Prilutsky et al. 2016, doi:10.1007/978-1-4939-3267-2_10; Habu 2020 eq. 12 without its gate"
+    inputs: ClassVar[tuple[Port, ...]] = (Port("length", "mm"), Port("velocity", "mm/s"))
+    outputs: ClassVar[tuple[Port, ...]] = (_SIGNAL,)
+
+    muscle: Annotated[str, Reference("muscle", (("length", "length"), ("velocity", "velocity")))]
+    threshold_length: Annotated[Quantity, LENGTH.positive]
+    velocity_gain: Annotated[Quantity, DIMENSIONLESS.non_negative] = quantity("0.5")
+    length_gain: Annotated[Quantity, DIMENSIONLESS.non_negative] = quantity("20")
+
+    @staticmethod
+    def output(
+        length: float, velocity: float, threshold_length: float, velocity_gain: float, length_gain: float
+    ) -> float:
+        """Return the feedback, never negative; the velocity is in threshold lengths per second."""
+        speed = velocity / threshold_length
+        power = abs(speed) ** 0.6
+        if speed < 0.0:
+            power = -power
+        stretch = max(0.0, (length - threshold_length) / threshold_length)
+        return max(0.0, velocity_gain * power + length_gain * stretch)
+
+
 class LegLoadSensor(Sensor):
     """Vertical force on a foot behind a first-order low pass, scaled to a feedback signal."""
 
