@@ -6,7 +6,7 @@ from pathlib import Path
 from neuromech.components.catalogue import Catalogue
 from neuromech.errors import DocumentError, Problem
 from neuromech.graph.build import build
-from neuromech.graph.checks import check
+from neuromech.graph.check import check
 from neuromech.graph.model import ModelGraph
 from neuromech.spec.load import load
 
