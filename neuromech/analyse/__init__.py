@@ -1,0 +1,1 @@
+"""Recordings turned into numbers, and numbers into verdicts on claims."""

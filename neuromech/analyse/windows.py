@@ -1,0 +1,126 @@
+"""The part of a recording that a measure looks at, and the words for what cannot be measured there."""
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic_core import PydanticCustomError
+
+from neuromech.errors import MeasureError
+from neuromech.simulate.recording import Recording
+from neuromech.spec.model import Measure
+from neuromech.units import Unit, unit_factor
+
+Array = NDArray[np.float64]
+
+
+class NotMeasurableError(Exception):
+    """A run does not show what a measure is about; the text says what is missing (`no rhythm`)."""
+
+
+@dataclass(frozen=True, slots=True)
+class Window:
+    """One signal between two times: times (s) and finite values, shape (n,) each, n at least 2."""
+
+    name: str
+    time: Array
+    values: Array
+    unit: str
+
+    def at(self, time: Array) -> Array:
+        """Return the values at other times, linearly interpolated."""
+        return np.interp(time, self.time, self.values)
+
+    def mean(self) -> float:
+        """Return the time average, by the trapezoidal rule."""
+        return float(np.trapezoid(self.values, self.time) / (self.time[-1] - self.time[0]))
+
+
+@dataclass(frozen=True, slots=True)
+class View:
+    """A recording as one measure sees it. Every method raises what it says in addition to these.
+
+    Raises:
+        MeasureError: the measure lacks an argument, or an argument does not fit the signal.
+        RecordingError: a signal was not recorded.
+    """
+
+    recording: Recording
+    spec: Measure
+
+    def signal(self) -> Window:
+        """Return the measure's `signal`.
+
+        Raises:
+            NotMeasurableError: as for `window`.
+        """
+        return self.window(self._need("signal"))
+
+    def reference(self) -> Window:
+        """Return the measure's `reference`.
+
+        Raises:
+            NotMeasurableError: as for `window`.
+        """
+        return self.window(self._need("reference"))
+
+    def signals(self) -> list[Window]:
+        """Return the measure's `signals`, in the order given.
+
+        Raises:
+            NotMeasurableError: as for `window`.
+        """
+        return [self.window(name) for name in self.signal_names()]
+
+    def signal_names(self) -> list[str]:
+        """Return the names of the measure's `signals`, where patterns are replaced by what they match."""
+        if self.spec.signals is None:
+            raise MeasureError(f"measure '{self.spec.kind}' needs 'signals'")
+        return [name for pattern in self.spec.signals for name in self._expand(pattern)]
+
+    def window(self, name: str) -> Window:
+        """Return a signal between `after` and `until`.
+
+        Raises:
+            NotMeasurableError: fewer than two samples are left, or a value is not finite.
+        """
+        time, values = self.recording.signal(name)
+        chosen = time >= self.spec.after
+        if self.spec.until is not None:
+            chosen &= time <= self.spec.until
+        if np.count_nonzero(chosen) < 2:
+            raise NotMeasurableError(f"the run ended at {self.recording.outcome.time:g} s, before there was a signal")
+        if not np.all(np.isfinite(values[chosen])):
+            raise NotMeasurableError(f"{name} is not finite")
+        return Window(name, time[chosen], values[chosen], self.recording.unit(name))
+
+    def argument(self, name: Literal["level", "least_amplitude", "tolerance"], unit: str) -> float:
+        """Return an argument of the measure as a number of `unit`."""
+        return in_unit(self._need(name), unit, name.replace("_", " "))
+
+    def _need(self, name: Literal["signal", "reference", "level", "least_amplitude", "tolerance"]) -> str:
+        value = getattr(self.spec, name)
+        if value is None:
+            raise MeasureError(f"measure '{self.spec.kind}' needs '{name}'")
+        return str(value)
+
+    def _expand(self, pattern: str) -> list[str]:
+        if "*" not in pattern and "?" not in pattern:
+            return [pattern]
+        found = self.recording.match(pattern)
+        if not found:
+            raise MeasureError(f"no recorded signal matches '{pattern}'")
+        return found
+
+
+def in_unit(value: str | int | float, unit: str, what: str) -> float:
+    """Return a written quantity as a number of `unit`.
+
+    Raises:
+        MeasureError: it is no quantity, or of another dimension; `what` names it in the message.
+    """
+    try:
+        return float(Unit(what, unit).parse(value)) / unit_factor(unit)[0]
+    except PydanticCustomError as error:
+        raise MeasureError(f"{error.message()} (got {value})") from error
