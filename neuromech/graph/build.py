@@ -6,6 +6,7 @@ from itertools import chain
 import networkx as nx
 
 from neuromech.errors import DocumentError
+from neuromech.graph.check import VALUE_RULES, broken
 from neuromech.graph.connect import Edge, crossings, structure, synapses, wires
 from neuromech.graph.declare import declared, two_definitions
 from neuromech.graph.model import Element, ModelGraph
@@ -31,7 +32,8 @@ def build(document: Document) -> ModelGraph:
     body, body_problems = (None, []) if _dangling_joint(elements, resolver) else body_model(document, elements)
     problems += resolver.problems + body_problems
     if problems:
-        raise DocumentError(problems)
+        partial = ModelGraph(document, _graph(elements, synaptic), None)
+        raise DocumentError([*problems, *broken(partial, VALUE_RULES)])
     edges = chain(synaptic, wires(elements), crossings(elements, body), structure(elements))
     return ModelGraph(document, _graph(elements, edges), body)
 

@@ -24,8 +24,15 @@ def synapses(resolver: Resolver) -> Iterator[Edge]:
                 for name, synapse in receivers.items():
                     target = resolver.resolve(name, scope, f"{here}.{name}", receiver(synapse.port))
                     if source is not None and target is not None:
-                        output = resolver.names.synaptic_output(source)
-                        yield source, target, Connection("synapse", f"{here}.{name}", output, synapse.port, synapse)
+                        output = _synaptic_output(source)
+                        connection = Connection("synapse", f"{here}.{name}", output, synapse.port, synapse)
+                        yield source.name, target.name, connection
+
+
+def _synaptic_output(source: Element) -> str:
+    assert isinstance(source.spec, Component)
+    assert source.spec.synaptic_output is not None
+    return source.spec.synaptic_output
 
 
 def wires(elements: list[Element]) -> Iterator[Edge]:

@@ -62,27 +62,20 @@ class Names:
     """The elements of a document by qualified name."""
 
     def __init__(self, elements: Iterable[Element]) -> None:
-        """Keep the first element of each name."""
-        self._elements: dict[str, Element] = {}
+        """Keep the elements; where a name is defined twice, both."""
+        self._elements: dict[str, list[Element]] = {}
         for element in elements:
-            self._elements.setdefault(element.name, element)
+            self._elements.setdefault(element.name, []).append(element)
 
     def candidates(self, reference: str, scope: str) -> Iterator[Element]:
         """Yield what a reference may mean, the closest first."""
         for around in enclosing(scope):
-            element = self._elements.get(qualified(around, reference))
-            if element is not None:
-                yield element
-
-    def synaptic_output(self, name: str) -> str:
-        """Return which output of a component synapses read, empty where they read none."""
-        spec = self._elements[name].spec
-        return (isinstance(spec, Component) and spec.synaptic_output) or ""
+            yield from self._elements.get(qualified(around, reference), ())
 
     def visible(self, scope: str, what: Wanted) -> list[str]:
         """Return the names of acceptable elements, each as it would be written in a scope."""
         around = [f"{one}." for one in enclosing(scope) if one]
-        accepted = (element.name for element in self._elements.values() if what.accepts(element))
+        accepted = (name for name, found in self._elements.items() if any(map(what.accepts, found)))
         return [next((name[len(one) :] for one in around if name.startswith(one)), name) for name in accepted]
 
 
@@ -94,13 +87,19 @@ class Resolver:
     names: Names
     problems: list[Problem] = field(default_factory=list)
 
-    def resolve(self, reference: str, scope: str, path: str, what: Wanted) -> str | None:
-        """Return the qualified name that a reference at a document path means, or None after noting the problem."""
+    def resolve(self, reference: str, scope: str, path: str, what: Wanted) -> Element | None:
+        """Return the element that a reference at a document path means, or None after noting the problem."""
         found = list(self.names.candidates(reference, scope))
         for element in found:
             if what.accepts(element):
-                return element.name
-        hint = did_you_mean(reference, self.names.visible(scope, what))
+                return element
+        allowed = self.names.visible(scope, what)
+        hint = did_you_mean(reference, allowed) if allowed else f"the document has no {what.text.partition(' ')[2]}"
         got = f"'{reference}', a {found[0].family}" if found else f"'{reference}'"
         self.problems.append(self.document.problem("unknown-name", path, f"must name {what.text}", got, hint))
         return None
+
+    def qualify(self, reference: str, scope: str, path: str, what: Wanted) -> str:
+        """Return the qualified name that a reference means, or the reference itself after noting the problem."""
+        element = self.resolve(reference, scope, path, what)
+        return reference if element is None else element.name

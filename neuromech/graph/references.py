@@ -8,6 +8,7 @@ from neuromech.components.muscles import ConstantMomentArms, PathPoint, Straight
 from neuromech.graph.model import Element
 from neuromech.graph.names import Resolver, wanted
 from neuromech.spec.model import Contact, Joint, Segment
+from neuromech.units import Quantity
 
 _JOINT = wanted("joint")
 _SEGMENT = wanted("segment")
@@ -21,21 +22,17 @@ def resolved(elements: Iterable[Element], resolver: Resolver) -> list[Element]:
 def _resolved_spec(element: Element, resolver: Resolver) -> Component | Segment | Joint | Contact:
     spec = element.spec
     if isinstance(spec, Joint):
-        fields = {
-            name: _segment(getattr(spec, name), f"{element.path}.{name}", element, resolver)
-            for name in ("parent", "child")
-        }
-        return spec.model_copy(update=fields)
+        names = {field: _segment(getattr(spec, field), field, element, resolver) for field in ("parent", "child")}
+        return spec.model_copy(update=names)
     if isinstance(spec, Contact):
-        segment = _segment(spec.segment, f"{element.path}.segment", element, resolver)
-        return spec.model_copy(update={"segment": segment})
+        return spec.model_copy(update={"segment": _segment(spec.segment, "segment", element, resolver)})
     if isinstance(spec, Component):
         return spec.model_copy(update=_component_fields(spec, element, resolver))
     return spec
 
 
-def _segment(name: str, path: str, element: Element, resolver: Resolver) -> str:
-    return resolver.resolve(name, element.scope, path, _SEGMENT) or name
+def _segment(name: str, field: str, element: Element, resolver: Resolver) -> str:
+    return resolver.qualify(name, element.scope, f"{element.path}.{field}", _SEGMENT)
 
 
 def _component_fields(spec: Component, element: Element, resolver: Resolver) -> dict[str, object]:
@@ -43,35 +40,34 @@ def _component_fields(spec: Component, element: Element, resolver: Resolver) -> 
     for name, reference in spec.references().items():
         value = getattr(spec, name)
         if value is not None:
-            found = resolver.resolve(value, element.scope, f"{element.path}.{name}", wanted(reference.to))
-            fields[name] = found or value
+            path = f"{element.path}.{name}"
+            fields[name] = resolver.qualify(value, element.scope, path, wanted(reference.to))
     way = getattr(spec, "path", None)
     if isinstance(way, ConstantMomentArms):
-        fields["path"] = _resolved_arms(way, element, resolver)
+        maps = {
+            field: _joints(getattr(way, field), field, element, resolver)
+            for field in ("reference_angles", "moment_arms")
+        }
+        fields["path"] = way.model_copy(update=maps)
     elif isinstance(way, StraightLines):
-        fields["path"] = _resolved_points(way, element, resolver)
+        points = tuple(_point(point, index, element, resolver) for index, point in enumerate(way.points))
+        fields["path"] = way.model_copy(update={"points": points})
     return fields
 
 
-def _resolved_arms(way: ConstantMomentArms, element: Element, resolver: Resolver) -> ConstantMomentArms:
-    fields = {}
-    for field in ("reference_angles", "moment_arms"):
-        path = f"{element.path}.path.{field}"
-        fields[field] = {
-            resolver.resolve(joint, element.scope, f"{path}.{joint}", _JOINT) or joint: value
-            for joint, value in getattr(way, field).items()
-        }
-    return way.model_copy(update=fields)
+def _joints(values: dict[str, Quantity], field: str, element: Element, resolver: Resolver) -> dict[str, Quantity]:
+    found: dict[str, Quantity] = {}
+    for joint, value in values.items():
+        path = f"{element.path}.path.{field}.{joint}"
+        name = resolver.qualify(joint, element.scope, path, _JOINT)
+        if name in found:
+            resolver.problems.append(
+                resolver.document.problem("two-definitions", path, f"gives a second value for joint '{name}'")
+            )
+        found[name] = value
+    return found
 
 
-def _resolved_points(way: StraightLines, element: Element, resolver: Resolver) -> StraightLines:
-    points = tuple(
-        _resolved_point(point, f"{element.path}.path.points.{index}", element, resolver)
-        for index, point in enumerate(way.points)
-    )
-    return way.model_copy(update={"points": points})
-
-
-def _resolved_point(point: PathPoint, path: str, element: Element, resolver: Resolver) -> PathPoint:
-    segment = _segment(point.segment, f"{path}.segment", element, resolver)
+def _point(point: PathPoint, index: int, element: Element, resolver: Resolver) -> PathPoint:
+    segment = _segment(point.segment, f"path.points.{index}.segment", element, resolver)
     return point.model_copy(update={"segment": segment})

@@ -60,7 +60,7 @@ def _tree_problems(
             yield document.problem("two-parents", f"{element.path}.child", "gives a segment a second parent", got, hint)
         else:
             parent_joint[child] = name
-    yield from _cycle_problems(document, joints, parent_joint)
+    yield from _cycle_problems(document, list(segments), joints, parent_joint)
     roots = [name for name in segments if name not in parent_joint]
     for name in roots[1:]:
         message = f"is a second root beside '{roots[0]}': it is the child of no joint"
@@ -69,7 +69,7 @@ def _tree_problems(
 
 
 def _cycle_problems(
-    document: Document, joints: Mapping[str, Element], parent_joint: Mapping[str, str]
+    document: Document, segments: list[str], joints: Mapping[str, Element], parent_joint: Mapping[str, str]
 ) -> Iterator[Problem]:
     links = nx.DiGraph()
     for child, name in parent_joint.items():
@@ -77,8 +77,9 @@ def _cycle_problems(
         assert isinstance(spec, Joint)
         links.add_edge(spec.parent, child)
     for cycle in nx.simple_cycles(links):
-        around = " → ".join([*cycle, cycle[0]])
-        path = joints[parent_joint[cycle[0]]].path
+        first = cycle.index(min(cycle, key=segments.index))
+        around = " → ".join([*cycle[first:], *cycle[: first + 1]])
+        path = joints[parent_joint[cycle[first]]].path
         yield document.problem("body-cycle", path, "closes a cycle of segments, a body is a tree", around)
 
 

@@ -1,0 +1,79 @@
+"""Every rule that a graph must obey, and the function that runs them all."""
+
+from collections.abc import Callable, Iterable
+
+from neuromech.errors import DocumentError, Problem
+from neuromech.graph.checks.body import (
+    angle_outside_range,
+    contact_without_ground,
+    hinge_engine,
+    inertia_of_no_body,
+    range_upside_down,
+    zero_axis,
+)
+from neuromech.graph.checks.definitions import synapse_defined_twice
+from neuromech.graph.checks.loops import algebraic_loop
+from neuromech.graph.checks.network import idle_motoneuron, sensor_without_target, unreachable_motoneuron
+from neuromech.graph.checks.paths import (
+    arms_and_angles_differ,
+    joints_off_one_chain,
+    path_crosses_no_joint,
+    path_turns_back,
+)
+from neuromech.graph.checks.ports import port_missing, unit_clash
+from neuromech.graph.checks.signals import (
+    claim_on_unrecorded,
+    initial_matches_nothing,
+    initial_of_wrong_unit,
+    record_matches_nothing,
+)
+from neuromech.graph.checks.timing import delay_below_step
+from neuromech.graph.model import ModelGraph
+
+Rule = Callable[[ModelGraph], Iterable[Problem]]
+
+VALUE_RULES: tuple[Rule, ...] = (
+    range_upside_down,
+    angle_outside_range,
+    zero_axis,
+    inertia_of_no_body,
+    contact_without_ground,
+    delay_below_step,
+)
+"""Rules that look at one element at a time, and so hold in a graph with missing edges too."""
+
+RULES: tuple[Rule, ...] = (
+    *VALUE_RULES,
+    hinge_engine,
+    synapse_defined_twice,
+    port_missing,
+    unit_clash,
+    arms_and_angles_differ,
+    joints_off_one_chain,
+    path_crosses_no_joint,
+    path_turns_back,
+    unreachable_motoneuron,
+    idle_motoneuron,
+    sensor_without_target,
+    algebraic_loop,
+    record_matches_nothing,
+    claim_on_unrecorded,
+    initial_matches_nothing,
+    initial_of_wrong_unit,
+)
+
+
+def check(graph: ModelGraph) -> None:
+    """Check a graph against every rule.
+
+    Raises:
+        DocumentError: with every problem found.
+    """
+    problems = broken(graph, RULES)
+    if problems:
+        raise DocumentError(problems)
+
+
+def broken(graph: ModelGraph, rules: Iterable[Rule]) -> list[Problem]:
+    """Return what is wrong by some rules."""
+    return [problem for rule in rules for problem in rule(graph)]

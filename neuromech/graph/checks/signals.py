@@ -1,0 +1,87 @@
+"""Rules about name patterns: what is recorded, judged or set at time zero exists."""
+
+from collections.abc import Iterable, Iterator
+
+from pydantic_core import PydanticCustomError
+
+from neuromech.errors import Problem, did_you_mean
+from neuromech.graph.model import ModelGraph
+from neuromech.graph.signals import matching, signals, states
+from neuromech.spec.model import Measure, Uniform
+from neuromech.units import Unit
+
+
+def record_matches_nothing(graph: ModelGraph) -> Iterator[Problem]:
+    """Each pattern of a record group matches a signal."""
+    every = list(signals(graph))
+    for name, group in graph.document.experiment.record.items():
+        for index, pattern in enumerate(group.signals):
+            if not matching(pattern, every):
+                path = f"record.{name}.signals.{index}"
+                hint = _closest(pattern, every)
+                yield graph.document.problem("no-such-signal", path, "matches no signal", f"'{pattern}'", hint)
+
+
+def claim_on_unrecorded(graph: ModelGraph) -> Iterator[Problem]:
+    """What a claim measures is recorded."""
+    every = list(signals(graph))
+    groups = graph.document.experiment.record.values()
+    recorded = [name for group in groups for pattern in group.signals for name in matching(pattern, every)]
+    for name, claim in graph.document.experiment.claims.items():
+        for path, pattern in _patterns(claim.measure):
+            if not matching(pattern, recorded):
+                hint = "record it" if matching(pattern, every) else _closest(pattern, recorded)
+                path = f"claims.{name}.measure.{path}"
+                message = "matches no recorded signal"
+                yield graph.document.problem("not-recorded", path, message, f"'{pattern}'", hint)
+
+
+def initial_matches_nothing(graph: ModelGraph) -> Iterator[Problem]:
+    """Each pattern of `protocol.initial` matches a state."""
+    every = list(states(graph))
+    for pattern in graph.document.experiment.protocol.initial:
+        if not matching(pattern, every):
+            path = f"protocol.initial.{pattern}"
+            hint = _closest(pattern, every)
+            yield graph.document.problem("no-such-state", path, "matches no state", f"'{pattern}'", hint)
+
+
+def initial_of_wrong_unit(graph: ModelGraph) -> Iterator[Problem]:
+    """A value at time zero has the dimension of the states that it sets."""
+    every = states(graph)
+    for pattern, value in graph.document.experiment.protocol.initial.items():
+        path = f"protocol.initial.{pattern}"
+        values: tuple[object, ...] = (value,)
+        if isinstance(value, Uniform):
+            path, values = f"{path}.uniform", value.uniform
+        for unit in dict.fromkeys(every[name] for name in matching(pattern, every)):
+            yield from _unit_problems(graph, path, values, unit)
+
+
+def _unit_problems(graph: ModelGraph, path: str, values: tuple[object, ...], unit: str) -> Iterator[Problem]:
+    for value in values:
+        try:
+            Unit("value", unit).parse(value)
+        except PydanticCustomError as error:
+            context = error.context or {}
+            yield graph.document.problem(error.type, path, error.message(), context.get("got"), context.get("hint"))
+            return
+
+
+def _patterns(measure: Measure) -> Iterator[tuple[str, str]]:
+    for field in ("signal", "reference"):
+        pattern = getattr(measure, field)
+        if pattern is not None:
+            yield field, pattern
+    for index, pattern in enumerate(measure.signals or ()):
+        yield f"signals.{index}", pattern
+
+
+def _closest(pattern: str, names: Iterable[str]) -> str:
+    """Return a hint about the part of a pattern that matches nothing: the quantity, or else the element before it."""
+    every = list(names)
+    element, _, quantity = pattern.rpartition(".")
+    quantities = {name.rpartition(".")[2] for name in every}
+    if not matching(quantity, quantities):
+        return did_you_mean(quantity, quantities)
+    return did_you_mean(element, {name.rpartition(".")[0] for name in matching(f"*.{quantity}", every)})
