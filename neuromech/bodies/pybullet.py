@@ -48,7 +48,7 @@ class PyBulletBody(Body):
         world = self._opened()
         n = len(self.joints)
         with _translated():
-            moving = pybullet.getJointStates(world.robot, world.joints + world.root, physicsClientId=world.client)
+            moving = _joint_states(world)
             state[self.layout.angles] = [joint[0] for joint in moving[:n]]
             state[self.layout.velocities] = [joint[1] for joint in moving[:n]]
             self._read_root(world, state, moving[n:])
@@ -152,6 +152,14 @@ def _translated() -> Iterator[None]:
         yield
     except pybullet.error as error:
         raise RunError(f"PyBullet failed: {error}") from error
+
+
+def _joint_states(world: BulletWorld) -> Sequence[tuple[float, ...]]:
+    joints = world.joints + world.root
+    if not joints:
+        return ()  # PyBullet answers an empty question with None.
+    states: Sequence[tuple[float, ...]] = pybullet.getJointStates(world.robot, joints, physicsClientId=world.client)
+    return states
 
 
 def _rotated(quaternion: Sequence[float], vector: Sequence[float]) -> tuple[float, float, float]:
