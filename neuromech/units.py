@@ -168,9 +168,7 @@ class Unit:
     def _show(self, bound: float) -> str:
         return f"{bound / unit_factor(self.example)[0]:g} {self.example}".strip()
 
-    def __get_pydantic_core_schema__(
-        self, _source: object, _handler: GetCoreSchemaHandler
-    ) -> core_schema.CoreSchema:
+    def __get_pydantic_core_schema__(self, _source: object, _handler: GetCoreSchemaHandler) -> core_schema.CoreSchema:
         """Validate with `parse`; serialise as a plain SI number."""
         return core_schema.no_info_plain_validator_function(
             self.parse, serialization=core_schema.plain_serializer_function_ser_schema(float)
@@ -227,16 +225,30 @@ def repr_short(value: object, length: int = 60) -> str:
     return text if len(text) <= length else text[: length - 1] + "…"
 
 
+def measure(value: str | int | float) -> tuple[float, str]:
+    """Return the SI value and the dimension of a quantity of whatever dimension; not finite where it is written so.
+
+    Raises:
+        ValueError: the text has no number or an unknown unit.
+    """
+    if not isinstance(value, str):
+        return float(value), unit_factor("")[1]
+    match = _TEXT.match(value)
+    if match is None:
+        if _NOT_FINITE.match(value):
+            return math.nan, ""
+        raise ValueError(f"'{value[:40]}' is no quantity")
+    factor, dimension = unit_factor(match[2])
+    return float(match[1]) * factor, dimension
+
+
 def quantity(text: str) -> Quantity:
     """Return the SI value of text such as `20 pF`, of whatever dimension. For defaults in our own code.
 
     Raises:
         ValueError: the text has no number or an unknown unit.
     """
-    match = _TEXT.match(text)
-    if match is None:
-        raise ValueError(f"'{text}' is no quantity")
-    return Quantity(float(match[1]) * unit_factor(match[2])[0])
+    return Quantity(measure(text)[0])
 
 
 DIMENSIONLESS = Unit("number", "")

@@ -38,7 +38,9 @@ class OfCatalogue:
             raise _error("missing-kind", "'kind' is missing", None, f"allowed: {', '.join(kinds)}")
         cls = catalogue.find(self.family, str(kind))
         if cls is None:
-            raise _error("unknown-kind", f"is not a {self.family} kind", repr_short(kind), did_you_mean(str(kind), kinds))
+            raise _error(
+                "unknown-kind", f"is not a {self.family} kind", repr_short(kind), did_you_mean(str(kind), kinds)
+            )
         return cls.model_validate(dict(value), context=info.context)
 
     def __get_pydantic_core_schema__(self, _source: object, _handler: GetCoreSchemaHandler) -> core_schema.CoreSchema:

@@ -4,9 +4,10 @@ Names inside a scope (the document itself, or an instance of a module) are plain
 scope's name, a dot, and its own (`LF.RG-F`). A reference is looked up in its own scope first, then outwards.
 """
 
+from collections.abc import Mapping
 from typing import Annotated, Literal
 
-from pydantic import Field, StringConstraints
+from pydantic import Field, StringConstraints, field_validator
 
 from neuromech.components.base import Drive, Muscle, Neuron, Sensor, SpecModel, Synapse
 from neuromech.spec.fields import OfCatalogue
@@ -26,7 +27,6 @@ from neuromech.units import (
     Dimensionless,
     Length,
     Quantity,
-    Time,
     quantity,
 )
 
@@ -52,6 +52,31 @@ class Network(SpecModel):
     neurons: dict[Name, Annotated[Neuron, OfCatalogue("neuron")]] = {}
     drives: dict[Name, Annotated[Drive, OfCatalogue("drive")]] = {}
     synapses: dict[str, dict[str, dict[str, Annotated[Synapse, OfCatalogue("synapse")]]]] = {}
+
+    @field_validator("synapses", mode="before")
+    @classmethod
+    def _kind_from_key(cls, value: object) -> object:
+        """Give each synapse the kind of the table it stands in; a bare value is its weight."""
+        if not isinstance(value, Mapping):
+            return value
+        return {kind: _with_kind(kind, senders) for kind, senders in value.items()}
+
+
+def _with_kind(kind: str, senders: object) -> object:
+    if not isinstance(senders, Mapping):
+        return senders
+    return {
+        sender: {receiver: _synapse(kind, value) for receiver, value in receivers.items()}
+        if isinstance(receivers, Mapping)
+        else receivers
+        for sender, receivers in senders.items()
+    }
+
+
+def _synapse(kind: str, value: object) -> object:
+    if isinstance(value, Synapse):
+        return value
+    return {"kind": kind, **value} if isinstance(value, Mapping) else {"kind": kind, "weight": value}
 
 
 class BoxShape(SpecModel):
@@ -204,6 +229,13 @@ class Event(SpecModel):
     set: dict[str, str | int | float] = Field(min_length=1)
 
 
+class Fall(SpecModel):
+    """When a body with a moving root counts as fallen: root too low, or tilted too far."""
+
+    height: Length | None = None
+    tilt: Annotated[Quantity, ANGLE.positive] | None = None
+
+
 class Protocol(SpecModel):
     """What happens in time. `initial` sets states by name pattern at time zero: a value, or a distribution."""
 
@@ -212,14 +244,7 @@ class Protocol(SpecModel):
     initial: dict[str, str | int | float | Uniform] = {}
     ramps: dict[Name, Ramp] = {}
     events: dict[Name, Event] = {}
-    fall: "Fall | None" = None
-
-
-class Fall(SpecModel):
-    """When a body with a moving root counts as fallen: root too low, or tilted too far."""
-
-    height: Length | None = None
-    tilt: Annotated[Quantity, ANGLE.positive] | None = None
+    fall: Fall | None = None
 
 
 class RecordGroup(SpecModel):

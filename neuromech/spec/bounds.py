@@ -1,0 +1,91 @@
+"""The bounds of a parameter: its value, and every value that a protocol gives it, lie within them."""
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Self
+
+from neuromech.errors import Problem
+from neuromech.spec.model import Parameter
+from neuromech.spec.node import join
+from neuromech.units import measure, repr_short
+
+Written = str | int | float
+
+
+@dataclass(frozen=True, slots=True)
+class Bounds:
+    """Dimension and limits (SI units) of a parameter, and the limits as written."""
+
+    dimension: str
+    unit: str
+    least: float
+    most: float
+    least_text: str
+    most_text: str
+
+    @classmethod
+    def of(cls, parameter: Parameter) -> Self | None:
+        """Return the bounds of a parameter, or None where they cannot be read; that is reported elsewhere."""
+        try:
+            _, dimension = measure(parameter.value)
+            least = -math.inf if parameter.minimum is None else measure(parameter.minimum)[0]
+            most = math.inf if parameter.maximum is None else measure(parameter.maximum)[0]
+        except ValueError:
+            return None
+        return cls(dimension, str(parameter.value), least, most, str(parameter.minimum), str(parameter.maximum))
+
+
+def check_parameter(parameter: Parameter, path: str) -> Iterator[Problem]:
+    """Yield what is wrong with a parameter in itself."""
+    readable = [
+        _readable(value, join(path, key))
+        for key in ("value", "minimum", "maximum")
+        if (value := getattr(parameter, key)) is not None
+    ]
+    problems = [problem for problem in readable if problem is not None]
+    yield from problems
+    bounds = Bounds.of(parameter)
+    if problems or bounds is None:
+        return
+    for key, value in (("minimum", parameter.minimum), ("maximum", parameter.maximum)):
+        if value is not None and measure(value)[1] != bounds.dimension:
+            message = f"must have the dimension of the value, '{parameter.value}'"
+            yield Problem("wrong-unit", join(path, key), message, repr_short(value))
+            return
+    if bounds.least > bounds.most:
+        message = f"must not be below the minimum, {bounds.least_text}"
+        yield Problem("out-of-range", join(path, "maximum"), message, repr_short(parameter.maximum))
+    else:
+        yield from _inside(parameter.value, bounds, join(path, "value"), "its")
+
+
+def check_value(value: Written, bounds: Bounds, name: str, path: str) -> Iterator[Problem]:
+    """Yield what is wrong with a value that a protocol gives to the parameter `name`."""
+    unreadable = _readable(value, path)
+    if unreadable is not None:
+        yield unreadable
+    elif measure(value)[1] != bounds.dimension:
+        message = f"must have the dimension of the parameter '{name}', '{bounds.unit}'"
+        yield Problem("wrong-unit", path, message, repr_short(value))
+    else:
+        yield from _inside(value, bounds, path, f"the parameter '{name}' has the")
+
+
+def _readable(value: Written, path: str) -> Problem | None:
+    try:
+        number, _ = measure(value)
+    except ValueError as error:
+        return Problem("not-a-quantity", path, f"must be a quantity: {error}", repr_short(value))
+    if not math.isfinite(number):
+        return Problem("out-of-range", path, "must be a finite number", repr_short(value))
+    return None
+
+
+def _inside(value: Written, bounds: Bounds, path: str, whose: str) -> Iterator[Problem]:
+    number, _ = measure(value)
+    got = repr_short(value)
+    if number < bounds.least:
+        yield Problem("out-of-range", path, f"is below {whose} minimum, {bounds.least_text}", got)
+    elif number > bounds.most:
+        yield Problem("out-of-range", path, f"is above {whose} maximum, {bounds.most_text}", got)
