@@ -1,0 +1,54 @@
+"""Muscle and joint torques, and the linearly implicit coupling with the body. Derived in docs/numerics.md."""
+
+from neuromech.compiler.numerics import Floats, Integers, equation, solve_symmetric
+
+
+@equation
+def muscle_torque(force: Floats, arms: Floats, first: Integers, joint: Integers, torque: Floats) -> None:
+    """Add to `torque` (n,) what the muscles exert: τ_j = Σ_m r_mj F_m, with moment arm r = −dl/dq (m).
+
+    `first` (m + 1,) says where the joints and arms of each muscle start in `joint` and `arms`.
+    """
+    for m in range(force.shape[0]):
+        for k in range(first[m], first[m + 1]):
+            torque[joint[k]] += arms[k] * force[m]
+
+
+@equation
+def muscle_damping(slope: Floats, arms: Floats, first: Integers, joint: Integers, matrix: Floats) -> None:
+    """Add to `matrix` (n, n) the joint damping of the muscles, Rᵀ diag(slope) R; slope in N s/m, arms in m."""
+    for m in range(slope.shape[0]):
+        for k in range(first[m], first[m + 1]):
+            for h in range(first[m], first[m + 1]):
+                matrix[joint[k], joint[h]] += arms[k] * slope[m] * arms[h]
+
+
+@equation
+def observer_implicit(
+    dt: float,
+    mass: Floats,
+    damping: Floats,
+    torque: Floats,
+    velocity: Floats,
+    last_velocity: Floats,
+    last_torque: Floats,
+    acceleration: Floats,
+) -> None:
+    """Replace `torque` (n,) by τ − dt B a, with (M + dt B) a = τ − τ_last + M (v − v_last)/dt.
+
+    M (n, n) is `mass`, B (n, n) `damping`; both are overwritten. M a_last − τ_last is what acted on the joints from
+    outside during the last step (contact, gravity, coupling), so that a static load causes no bias.
+    """
+    n = torque.shape[0]
+    for i in range(n):
+        total = torque[i] - last_torque[i]
+        for j in range(n):
+            total += mass[i, j] * (velocity[j] - last_velocity[j]) / dt
+        acceleration[i] = total
+    for i in range(n):
+        for j in range(n):
+            mass[i, j] += dt * damping[i, j]
+    solve_symmetric(mass, acceleration)
+    for i in range(n):
+        for j in range(n):
+            torque[i] -= dt * damping[i, j] * acceleration[j]

@@ -1,0 +1,187 @@
+"""Shape -> source of the module that steps it. The module is meant to be read: `neuromech compile SPEC`."""
+
+from collections.abc import Callable, Iterator
+from typing import Any
+
+from neuromech.compiler.shape import KindShape, Shape, argument_names, evaluated_with_body, has_feedthrough
+from neuromech.compiler.template import BODY, NETWORK, NO_BODY, STEPPERS
+from neuromech.components.base import Component
+
+
+def generate(shape: Shape) -> str:
+    """Return the source of the step module for a shape.
+
+    Raises:
+        TypeError: an equation has an argument that is no state, input or parameter of its class.
+    """
+    parts = [
+        _imports(shape),
+        _positions(shape),
+        *(_equations(kind) for kind in shape.kinds),
+        _outputs(shape),
+        _dispatch("evaluate_network", shape, [kind for kind in shape.kinds if _scheduled_in_network(kind.cls)]),
+        _dispatch("evaluate_mechanics", shape, [kind for kind in shape.kinds if evaluated_with_body(kind.cls)]),
+        _inputs(shape),
+        _flows(shape),
+        NETWORK,
+        STEPPERS[shape.method],
+        BODY if shape.has_body else NO_BODY,
+    ]
+    return _fill("\n\n".join(part.strip("\n") for part in parts if part) + "\n", shape)
+
+
+def _fill(text: str, shape: Shape) -> str:
+    for name in shape.header():
+        text = text.replace(f"<{name}>", f"I[{_constant(name)}]")
+    return text.replace("<delays>", str(shape.has_delays))
+
+
+def _constant(name: str) -> str:
+    return name.replace(".", "_").upper()
+
+
+def _positions(shape: Shape) -> str:
+    lines = ["# Where the integer buffer holds each offset into the buffers, and each count."]
+    return "\n".join([*lines, *(f"{_constant(name)} = {position}" for name, position in shape.header().items())])
+
+
+def _imports(shape: Shape) -> str:
+    kinds = ", ".join(kind.name for kind in shape.kinds)
+    lines = [
+        f'"""Generated step for {kinds}; {shape.method}."""',
+        "",
+        "import numpy as np",
+        "",
+        "from neuromech.compiler.coupling import muscle_damping, muscle_torque, observer_implicit",
+        "from neuromech.compiler.dynamics import mass_matrix",
+        "from neuromech.compiler.kinematics import contact_positions, forward_kinematics, roll_pitch_yaw",
+        "from neuromech.compiler.kinematics import segment_velocities, world_axis",
+        "from neuromech.compiler.numerics import compiled, equation, interpolate, relaxed",
+        "from neuromech.compiler.paths import constant_path, straight_path",
+        *sorted({f"from {kind.cls.__module__} import {kind.cls.__qualname__}" for kind in shape.kinds}),
+    ]
+    return "\n".join(lines)
+
+
+def _equations(kind: KindShape) -> str:
+    cls = kind.cls
+    lines = [f"# {kind.name}: {cls.source}"]
+    lines += [
+        f"{kind.name}_{part} = equation({cls.__qualname__}.{part})" for part in ("output", "flow") if getattr(cls, part)
+    ]
+    return "\n".join(lines)
+
+
+def _scheduled_in_network(cls: type[Component]) -> bool:
+    return has_feedthrough(cls) and not evaluated_with_body(cls)
+
+
+def _outputs(shape: Shape) -> str:
+    lines = [
+        "@equation",
+        "def network_outputs(x, s, u, p, F, I):",
+        '    """Outputs of neurons and drives: first those that depend on states alone, then the others in order."""',
+    ]
+    for kind in shape.kinds:
+        if kind.cls.output and not evaluated_with_body(kind.cls) and not has_feedthrough(kind.cls):
+            lines += _loop(kind, kind.cls.output, "output")
+    lines += ["    evaluate_network(x, s, u, p, F, I)"]
+    return "\n".join(lines)
+
+
+def _loop(kind: KindShape, function: Callable[..., Any], part: str) -> Iterator[str]:
+    yield from (f"    {line}" for line in _locals(kind, function, part))
+    yield "    for i in range(count):"
+    yield from (f"        {line}" for line in _call(kind, function, part))
+
+
+def _locals(kind: KindShape, function: Callable[..., Any], part: str) -> Iterator[str]:
+    name = kind.name
+    yield f"count = <{name}.count>  # {name}"
+    if kind.cls.states:
+        yield f"x0 = <{name}.states>"
+    if kind.cls.inputs:
+        yield f"u0 = <{name}.inputs>"
+    if part == "output":
+        yield f"s0 = <{name}.outputs>"
+    for argument in argument_names(function):
+        if argument in kind.cls.model_fields:
+            read = f"p[<{name}.{argument}>]" if argument in kind.uniform else f"<{name}.{argument}>"
+            yield f"{argument} = {read}"
+
+
+def _call(kind: KindShape, function: Callable[..., Any], part: str) -> Iterator[str]:
+    arguments = ", ".join(_argument(kind, name) for name in argument_names(function))
+    if part == "flow":
+        results = ", ".join(f"drive{k}, rate{k}" for k in range(len(kind.cls.states)))
+        yield f"{results} = {kind.name}_flow({arguments})"
+        for k in range(len(kind.cls.states)):
+            at = f"{_at('x0', k)}i"
+            yield f"drive[{at}] = drive{k}"
+            yield f"rate[{at}] = rate{k}"
+        return
+    results = ", ".join(f"s[{_at('s0', k)}i]" for k in range(len(kind.cls.outputs)))
+    yield f"{results} = {kind.name}_output({arguments})"
+
+
+def _argument(kind: KindShape, name: str) -> str:
+    states = [state.name for state in kind.cls.states]
+    ports = [port.name for port in kind.cls.inputs]
+    if name in states:
+        return f"x[{_at('x0', states.index(name))}i]"
+    if name in ports:
+        return f"u[{_at('u0', ports.index(name))}i]"
+    if name in kind.cls.model_fields:
+        return name if name in kind.uniform else f"p[{name} + i]"
+    raise TypeError(f"{kind.cls.__qualname__}: '{name}' is no state, input port or parameter")
+
+
+def _at(start: str, k: int) -> str:
+    return f"{start} + " + (f"{k} * count + " if k > 1 else "count + " if k else "")
+
+
+def _dispatch(function: str, shape: Shape, kinds: list[KindShape]) -> str:
+    order = function.replace("evaluate_", "") + "_order"
+    lines = [
+        "@equation",
+        f"def {function}(x, s, u, p, F, I):",
+        '    """Inputs and outputs of what passes inputs straight on, in an order in which each input is ready."""',
+    ]
+    if not kinds:
+        return "\n".join([*lines, "    return"])
+    lines += [f"    for k in range(<{order}ed>):", f"        kind, i = I[<{order}> + 2 * k], I[<{order}> + 2 * k + 1]"]
+    for branch, kind in enumerate(kinds):
+        output = kind.cls.output
+        if output is None:
+            continue
+        lines.append(f"        {'el' if branch else ''}if kind == {shape.kinds.index(kind)}:")
+        lines += [f"            {line}" for line in _locals(kind, output, "output")]
+        lines += ["            gather(s, u, p, F, I, u0 + i, 1, count, " + str(len(kind.cls.inputs)) + ")"]
+        lines += [f"            {line}" for line in _call(kind, output, "output")]
+    return "\n".join(lines)
+
+
+def _inputs(shape: Shape) -> str:
+    lines = [
+        "@equation",
+        "def network_inputs(s, u, p, F, I):",
+        '    """Inputs of everything that has states."""',
+    ]
+    for kind in shape.kinds:
+        if kind.cls.flow and kind.cls.inputs:
+            count = f"<{kind.name}.count>"
+            ports = len(kind.cls.inputs)
+            lines.append(f"    gather(s, u, p, F, I, <{kind.name}.inputs>, {ports} * {count}, 0, 1)")
+    return "\n".join([*lines, "    return"] if len(lines) == 3 else lines)
+
+
+def _flows(shape: Shape) -> str:
+    lines = [
+        "@equation",
+        "def flows(x, u, p, I, drive, rate):",
+        '    """Drive and rate of every state: dx/dt = drive − rate x."""',
+    ]
+    for kind in shape.kinds:
+        if kind.cls.flow:
+            lines += _loop(kind, kind.cls.flow, "flow")
+    return "\n".join([*lines, "    return"] if len(lines) == 3 else lines)

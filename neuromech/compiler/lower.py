@@ -1,0 +1,158 @@
+"""ModelGraph → Program: names become positions, structure becomes arrays, kinds become one compiled step."""
+
+from collections.abc import Iterable
+
+import numpy as np
+
+from neuromech.compiler import lower_body
+from neuromech.compiler.buffers import Buffer, Reserve
+from neuromech.compiler.cache import module_file
+from neuromech.compiler.generate import generate
+from neuromech.compiler.layout import Layout
+from neuromech.compiler.lower_components import Block, blocks, parameters, place
+from neuromech.compiler.lower_connections import connections, evaluation_order
+from neuromech.compiler.numerics import Floats
+from neuromech.compiler.program import Program
+from neuromech.compiler.shape import COMMON, FixedStep, Shape
+from neuromech.compiler.timeline import timeline
+from neuromech.compiler.tree import Tree, lower_tree
+from neuromech.errors import DocumentError
+from neuromech.graph.model import BodyModel, ModelGraph
+from neuromech.graph.signals import signals
+
+_STAGE_ARRAYS = 5
+
+
+def lower(graph: ModelGraph) -> Program:
+    """Lower a model that was built and checked.
+
+    Raises:
+        DocumentError: delays with an adaptive solver, overlapping changes of a parameter, or a change during the run
+            of what cannot change.
+    """
+    header = dict.fromkeys(COMMON, 0)
+    integers, floats, work, layout = Buffer(header), Buffer(header), Reserve(header), Layout()
+    solver = graph.document.experiment.solver
+    parts = blocks(graph)
+    place(parts, header, layout)
+    tree = lower_tree(graph.body) if graph.body else None
+    elements = lower_body.muscles(graph)
+    if tree is not None:
+        lower_body.body_signals(tree, layout, integers, _tracked(graph))
+        lower_body.muscle_signals(elements, layout, header)
+        lower_body.force_slots(elements, layout, integers)
+    parameters(parts, floats, layout)
+    has_delays = connections(graph, layout, float(solver.step), integers, floats, work)
+    evaluation_order(graph, parts, integers)
+    points = _lower_mechanics(graph, graph.body, tree, layout, integers, floats, work)
+    timeline(graph.document, layout, integers, floats)
+    work.add("base", len(layout.inputs))
+    work.add("stages", _STAGE_ARRAYS * layout.state_count)
+    header["explicit"] = int(solver.coupling == "explicit")
+    substeps = header["substeps"] = round(float(solver.body_step) / float(solver.step)) if tree else 1
+    _record_sections(graph, layout, integers, float(solver.body_step if tree else solver.step))
+    shape = Shape(tuple(part.shape for part in parts), _fixed_step(graph, has_delays), tree is not None, has_delays)
+    source = generate(shape)
+    return Program(
+        graph=graph,
+        shape=shape,
+        source=source,
+        module_file=module_file(source, [part.shape.cls for part in parts]),
+        layout=layout,
+        header=header,
+        integers=_with_header(integers, shape),
+        parameters=floats.floats(),
+        work_size=work.size,
+        tree=tree,
+        path_points=points,
+        initial=_initial(parts, layout),
+        substeps=substeps,
+    )
+
+
+def _tracked(graph: ModelGraph) -> Iterable[str]:
+    """Return the segments whose motion is looked at: the root, what sensors refer to, what is recorded."""
+    segments = {element.name for element in graph.elements("segment")}
+    if graph.body is not None:
+        yield graph.body.root_segment
+    yield from (sender for sender, _, _ in graph.connections("wire") if sender in segments)
+    for name in recorded_names(graph):
+        if name.rpartition(".")[0] in segments:
+            yield name.rpartition(".")[0]
+
+
+def recorded_names(graph: ModelGraph) -> Iterable[str]:
+    """Yield the names of all signals that any record group asks for."""
+    available = Layout(signals=dict.fromkeys(signals(graph), 0))
+    for group in graph.document.experiment.record.values():
+        for pattern in group.signals:
+            yield from available.match(pattern)
+
+
+def _lower_mechanics(
+    graph: ModelGraph,
+    body: BodyModel | None,
+    tree: Tree | None,
+    layout: Layout,
+    integers: Buffer,
+    floats: Buffer,
+    work: Reserve,
+) -> int:
+    if body is None or tree is None:
+        return 0
+    elements = lower_body.muscles(graph)
+    n, m = len(tree.joints), len(elements)
+    lower_body.joint_parameters(graph, body, layout, floats)
+    lower_body.structure(tree, integers)
+    work.add("last_velocity", n)
+    work.add("last_torque", n)
+    work.add("work", 2 * n * n + n + 2 * m)
+    return lower_body.paths(elements, tree, graph, layout, integers, floats, work)
+
+
+def _record_sections(graph: ModelGraph, layout: Layout, integers: Buffer, tick: float) -> None:
+    groups = graph.document.experiment.record.values()
+    names = [recorded(layout, group.signals, graph) for group in groups]
+    integers.header["groups"] = len(names)
+    integers.add("group_every", [round(float(group.every) / tick) for group in groups])
+    starts = [0, *np.cumsum([len(some) for some in names], dtype=int).tolist()]
+    integers.add("group_start", starts)
+    integers.add("group_row", [0] * len(names))
+    integers.add("slot", [layout.slot(name) for some in names for name in some])
+
+
+def recorded(layout: Layout, patterns: Iterable[str], graph: ModelGraph) -> list[str]:
+    """Return the names that a record group asks for, in authored order of the elements, each once."""
+    wanted = {name for pattern in patterns for name in layout.match(pattern)}
+    return [name for name in signals(graph) if name in wanted]
+
+
+def _fixed_step(graph: ModelGraph, has_delays: bool) -> FixedStep:
+    method = graph.document.experiment.solver.method
+    if method in ("rk4", "exponential_euler"):
+        return method  # type: ignore[return-value]
+    if has_delays:
+        hint = "use rk4 or exponential_euler, or remove the delays"
+        message = "an adaptive solver cannot run a network with delays"
+        raise DocumentError([graph.document.problem("delay-solver", "solver.method", message, method, hint)])
+    return "rk4"
+
+
+def _with_header(integers: Buffer, shape: Shape) -> "np.ndarray[tuple[int], np.dtype[np.int64]]":
+    positions = shape.header()
+    size = len(positions)
+    values = np.concatenate([np.zeros(size, dtype=np.int64), integers.integers()])
+    for name, position in positions.items():
+        shifted = name in integers.sections
+        values[position] = integers.header[name] + (size if shifted else 0)
+        integers.header[name] = int(values[position])
+    return values
+
+
+def _initial(parts: Iterable[Block], layout: Layout) -> Floats:
+    values = np.zeros(layout.state_count)
+    for part in parts:
+        for element, component in zip(part.elements, part.components, strict=True):
+            for state in part.shape.cls.states:
+                values[layout.states[f"{element.name}.{state.name}"]] = getattr(component, state.initial)
+    return values

@@ -1,0 +1,71 @@
+"""Small numeric kernels that every compiled step shares, and the one way in which we compile."""
+
+from collections.abc import Callable
+from typing import Any
+
+import numba
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+Integers = NDArray[np.int64]
+
+# Not-a-number and infinity keep their meaning: divergence is looked for.
+_FAST_MATH = {"contract", "arcp", "nsz", "afn", "reassoc"}
+
+
+def compiled(function: Callable[..., Any]) -> Any:
+    """Compile a kernel on first call; releases the interpreter lock, keeps its machine code on disk."""
+    return numba.njit(cache=True, nogil=True, error_model="numpy", fastmath=_FAST_MATH)(function)
+
+
+def equation(function: Callable[..., Any]) -> Any:
+    """Compile an equation of a component; it is inlined into the kernel that calls it, so nothing is kept on disk."""
+    return numba.njit(nogil=True, error_model="numpy", fastmath=_FAST_MATH)(function)
+
+
+@equation
+def relaxed(value: float, drive: float, rate: float, dt: float) -> float:
+    """Return x(t + dt) of dx/dt = drive − rate x with both held: the exact solution, also where rate is zero."""
+    exponent = rate * dt
+    if abs(exponent) < 1e-8:
+        return value + dt * (drive - rate * value)
+    return value + (drive / rate - value) * -np.expm1(-exponent)
+
+
+@equation
+def interpolate(t: float, start: int, count: int, times: int, values: int, p: Floats) -> float:
+    """Return the piecewise linear function with `count` breakpoints at p[times + start…]; constant outside.
+
+    Where two breakpoints have the same time, the later one holds from that time on.
+    """
+    last = start + count - 1
+    if t >= p[times + last]:
+        return float(p[values + last])
+    k = start
+    while k < last and p[times + k + 1] <= t:
+        k += 1
+    if t <= p[times + k]:
+        return float(p[values + k])
+    share = (t - p[times + k]) / (p[times + k + 1] - p[times + k])
+    return float(p[values + k] + share * (p[values + k + 1] - p[values + k]))
+
+
+@equation
+def solve_symmetric(matrix: Floats, vector: Floats) -> None:
+    """Solve A x = b in place for a symmetric positive definite A (n, n), by its Cholesky factor; b becomes x."""
+    n = vector.shape[0]
+    for i in range(n):
+        for j in range(i + 1):
+            total = matrix[i, j]
+            for k in range(j):
+                total -= matrix[i, k] * matrix[j, k]
+            matrix[i, j] = np.sqrt(total) if i == j else total / matrix[j, j]
+    for i in range(n):
+        for k in range(i):
+            vector[i] -= matrix[i, k] * vector[k]
+        vector[i] /= matrix[i, i]
+    for i in range(n - 1, -1, -1):
+        for k in range(i + 1, n):
+            vector[i] -= matrix[k, i] * vector[k]
+        vector[i] /= matrix[i, i]

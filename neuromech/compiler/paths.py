@@ -1,0 +1,75 @@
+"""Lengths, velocities and moment arms of muscle paths from the joint angles."""
+
+import numpy as np
+
+from neuromech.compiler.numerics import Floats, Integers, equation
+
+
+@equation
+def constant_path(
+    reference_length: float, reference_angles: Floats, arms: Floats, joint: Integers, angle: Floats
+) -> float:
+    """Return l = l_ref − Σ r_j (q_j − q_ref,j) in m; all arrays (k,) over the joints that the path crosses."""
+    length = reference_length
+    for k in range(joint.shape[0]):
+        length -= arms[k] * (angle[joint[k]] - reference_angles[k])
+    return length
+
+
+@equation
+def straight_path(
+    points: Floats,
+    carrier: Integers,
+    moved: Integers,
+    axis: Floats,
+    position: Floats,
+    child: Integers,
+    slide: Integers,
+    joint: Integers,
+    arms: Floats,
+) -> float:
+    """Return the length (m) of straight lines through `points` (p, 3) in the world, and fill the moment arms.
+
+    Args:
+        points: (p, 3) in m, in the order from origin to insertion.
+        carrier: (p,) segment of each point.
+        moved: (n, s) 1 where joint n moves segment s.
+        axis: (n, 3) joint axes in the world.
+        position: (s, 3) origins of the segment frames in the world, m.
+        child: (n,) segment whose frame stands at the joint.
+        slide: (n,) 1 for a sliding joint.
+        joint: (k,) joints that the path crosses.
+        arms: (k,) filled with r = −dl/dq, m (or 1 for a sliding joint).
+    """
+    length = 0.0
+    for k in range(joint.shape[0]):
+        arms[k] = 0.0
+    for i in range(points.shape[0] - 1):
+        x = points[i + 1, 0] - points[i, 0]
+        y = points[i + 1, 1] - points[i, 1]
+        z = points[i + 1, 2] - points[i, 2]
+        distance = np.sqrt(x * x + y * y + z * z)
+        length += distance
+        for k in range(joint.shape[0]):
+            j = joint[k]
+            first = moved[j, carrier[i]]
+            second = moved[j, carrier[i + 1]]
+            if first == second or distance == 0.0:
+                continue
+            end = i + 1 if second else i
+            sign = 1.0 if second else -1.0
+            dx, dy, dz = _motion(points, end, axis, position[child[j]], j, slide[j])
+            arms[k] -= sign * (x * dx + y * dy + z * dz) / distance
+    return length
+
+
+@equation
+def _motion(
+    points: Floats, i: int, axis: Floats, origin: Floats, j: int, slides: int
+) -> tuple[float, float, float]:
+    if slides:
+        return axis[j, 0], axis[j, 1], axis[j, 2]
+    x = points[i, 0] - origin[0]
+    y = points[i, 1] - origin[1]
+    z = points[i, 2] - origin[2]
+    return axis[j, 1] * z - axis[j, 2] * y, axis[j, 2] * x - axis[j, 0] * z, axis[j, 0] * y - axis[j, 1] * x

@@ -1,0 +1,80 @@
+"""The shape of a step: everything that decides its code, and nothing that only decides its numbers."""
+
+import inspect
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, Literal
+
+from neuromech.components.base import Component
+
+FixedStep = Literal["rk4", "exponential_euler"]
+
+# Offsets and counts at the front of the integer buffer, by name; the generated code reads them from there.
+COMMON = (
+    "states", "inputs", "base", "stages", "row_start", "row_source", "weights",
+    "delayed", "delayed_row", "delayed_source", "delayed_weight", "delay_steps",
+    "history", "history_length", "history_width", "history_slot",
+    "network_order", "network_ordered", "mechanics_order", "mechanics_ordered",
+    "driven", "driven_start", "breakpoint_time", "breakpoint_value", "bound_start", "bound_slot",
+    "groups", "group_every", "group_start", "group_row", "slot", "substeps",
+    "joints", "segments", "contacts", "muscles", "tracked", "body", "torque", "point", "segment_signal",
+    "track", "path_first", "path_joint", "path_kind", "path_length", "path_reference", "path_arm",
+    "path_point", "path_point_first", "path_segment", "moved", "length_signal", "velocity_signal",
+    "force_slot", "stiffness_slot", "damping_slot", "damping", "joint_stiffness", "rest_angle", "arms", "work",
+    "last_velocity", "last_torque", "explicit", "child", "slide", "root",
+)  # fmt: skip
+
+
+@dataclass(frozen=True)
+class KindShape:
+    """One component class in use, and which of its parameters are one number for all its instances."""
+
+    cls: type[Component]
+    uniform: frozenset[str]
+
+    @property
+    def name(self) -> str:
+        """The word that generated code uses for the class."""
+        return self.cls.kind_name()
+
+    def header(self) -> tuple[str, ...]:
+        """Return the names of this kind's offsets in the integer buffer."""
+        fixed = ("count", "states", "inputs", "outputs")
+        return tuple(f"{self.name}.{part}" for part in (*fixed, *parameter_names(self.cls)))
+
+
+@dataclass(frozen=True)
+class Shape:
+    """What the generated module depends on: kinds in use, method, and which parts there are."""
+
+    kinds: tuple[KindShape, ...]
+    method: FixedStep
+    has_body: bool
+    has_delays: bool
+
+    def header(self) -> dict[str, int]:
+        """Return name -> position in the integer buffer for every offset and count."""
+        names = [*COMMON, *(name for kind in self.kinds for name in kind.header())]
+        return {name: position for position, name in enumerate(names)}
+
+
+def argument_names(function: Callable[..., Any]) -> tuple[str, ...]:
+    """Return the argument names of an equation."""
+    return tuple(inspect.signature(function).parameters)
+
+
+def parameter_names(cls: type[Component]) -> tuple[str, ...]:
+    """Return the parameters that the equations of a class use, in field order."""
+    used = {name for function in (cls.output, cls.flow) if function for name in argument_names(function)}
+    return tuple(name for name in cls.model_fields if name in used)
+
+
+def has_feedthrough(cls: type[Component]) -> bool:
+    """Return whether an output of the class depends directly on an input."""
+    ports = {port.name for port in cls.inputs}
+    return cls.output is not None and not ports.isdisjoint(argument_names(cls.output))
+
+
+def evaluated_with_body(cls: type[Component]) -> bool:
+    """Return whether outputs are evaluated once per body step: muscles and sensors are."""
+    return cls.family in ("muscle", "sensor")

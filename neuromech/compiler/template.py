@@ -1,0 +1,326 @@
+"""The parts of a generated step module that do not depend on the kinds in use. <name> is an offset or a count."""
+
+GATHER = '''
+@equation
+def gather(s, u, p, F, I, first, rows, stride, ports):
+    """Sum the weighted signals that reach `ports` blocks of `rows` input ports each."""
+    row_start, row_source, weights, base = <row_start>, <row_source>, <weights>, <base>
+    for port in range(ports):
+        for row in range(first + port * stride, first + port * stride + rows):
+            total = F[base + row]
+            for k in range(I[row_start + row], I[row_start + row + 1]):
+                total += p[weights + k] * s[I[row_source + k]]
+            u[row] = total
+'''
+
+NETWORK = '''
+@equation
+def delayed_inputs(step, fraction, p, F, I):
+    """Put into the base of each input what delayed synapses bring `fraction` steps after step `step`."""
+    base, history, length, width = <base>, <history>, <history_length>, <history_width>
+    for row in range(<inputs>):
+        F[base + row] = 0.0
+    for k in range(<delayed>):
+        position = step + fraction - p[<delay_steps> + k]
+        earlier = int(np.floor(position))
+        share = position - earlier
+        column = history + I[<delayed_source> + k]
+        signal = (1.0 - share) * F[column + (earlier % length) * width]
+        signal += share * F[column + ((earlier + 1) % length) * width]
+        F[base + I[<delayed_row> + k]] += p[<weights> + I[<delayed_weight> + k]] * signal
+
+
+@equation
+def remember(step, s, F, I):
+    """Write the signals that delayed synapses will need into the ring of step `step`."""
+    start = <history> + (step % <history_length>) * <history_width>
+    for k in range(<history_width>):
+        F[start + k] = s[I[<history_slot> + k]]
+
+
+@equation
+def stage(x, s, u, p, F, I, drive, rate, step, fraction):
+    """Evaluate the network at one state: signals, inputs, drive and rate of every state."""
+    if <delays>:
+        delayed_inputs(step, fraction, p, F, I)
+    network_outputs(x, s, u, p, F, I)
+    network_inputs(s, u, p, F, I)
+    flows(x, u, p, I, drive, rate)
+
+
+@compiled
+def derivative(t, x, dx, s, u, p, F, I):
+    """Fill dx/dt at time t and state x."""
+    apply_protocol(t, p, I)
+    n = <states>
+    rate = F[<stages> : <stages> + n]
+    stage(x, s, u, p, F, I, dx, rate, 0, 0.0)
+    for k in range(n):
+        dx[k] -= rate[k] * x[k]
+
+
+@equation
+def apply_protocol(t, p, I):
+    """Give every parameter that the protocol moves its value at time t, wherever it is used."""
+    for k in range(<driven>):
+        start = I[<driven_start> + k]
+        count = I[<driven_start> + k + 1] - start
+        value = interpolate(t, start, count, <breakpoint_time>, <breakpoint_value>, p)
+        for b in range(I[<bound_start> + k], I[<bound_start> + k + 1]):
+            p[I[<bound_slot> + b]] = value
+
+
+@equation
+def record(tick, x, s, u, I, R):
+    """Copy the signals of every record group that is due. A slot counts through states, signals and inputs."""
+    states, signals = x.shape[0], s.shape[0]
+    for group in range(<groups>):
+        every = I[<group_every> + group]
+        if tick % every:
+            continue
+        first, last = I[<group_start> + group], I[<group_start> + group + 1]
+        row = I[<group_row> + group] + (tick // every) * (last - first)
+        for k in range(first, last):
+            slot = I[<slot> + k]
+            if slot < states:
+                R[row + k - first] = x[slot]
+            elif slot < states + signals:
+                R[row + k - first] = s[slot - states]
+            else:
+                R[row + k - first] = u[slot - states - signals]
+
+
+@equation
+def first_bad(x):
+    """Return the position of the first state that is not finite, or −1."""
+    total = 0.0
+    for k in range(x.shape[0]):
+        total += x[k] * 0.0
+    if total == 0.0:
+        return -1
+    for k in range(x.shape[0]):
+        if not np.isfinite(x[k]):
+            return k
+    return -1
+
+
+@compiled
+def sample(tick, x, s, u, p, F, I, R):
+    """Record the network at a state that was found elsewhere."""
+    network_outputs(x, s, u, p, F, I)
+    network_inputs(s, u, p, F, I)
+    record(tick, x, s, u, I, R)
+
+
+@compiled
+def begin(x, s, u, p, F, I):
+    """Evaluate everything once at time zero, so that delay lines start filled."""
+    apply_protocol(0.0, p, I)
+    for row in range(<inputs>):
+        F[<base> + row] = 0.0
+    network_outputs(x, s, u, p, F, I)
+    for step in range(<history_length>):
+        remember(step, s, F, I)
+'''
+
+RK4 = '''
+@equation
+def network_step(step, dt, x, s, u, p, F, I):
+    """Advance the network by one step of the classical Runge–Kutta method."""
+    n = <states>
+    k0 = <stages>
+    total = F[k0 : k0 + n]
+    now = F[k0 + n : k0 + 2 * n]
+    drive = F[k0 + 2 * n : k0 + 3 * n]
+    rate = F[k0 + 3 * n : k0 + 4 * n]
+    stage(x, s, u, p, F, I, drive, rate, step, 0.0)
+    if <delays>:
+        remember(step, s, F, I)
+    for k in range(n):
+        slope = drive[k] - rate[k] * x[k]
+        total[k] = slope
+        now[k] = x[k] + 0.5 * dt * slope
+    stage(now, s, u, p, F, I, drive, rate, step, 0.5)
+    for k in range(n):
+        slope = drive[k] - rate[k] * now[k]
+        total[k] += 2.0 * slope
+        now[k] = x[k] + 0.5 * dt * slope
+    stage(now, s, u, p, F, I, drive, rate, step, 0.5)
+    for k in range(n):
+        slope = drive[k] - rate[k] * now[k]
+        total[k] += 2.0 * slope
+        now[k] = x[k] + dt * slope
+    stage(now, s, u, p, F, I, drive, rate, step, 1.0)
+    for k in range(n):
+        x[k] += dt / 6.0 * (total[k] + drive[k] - rate[k] * now[k])
+'''
+
+EXPONENTIAL_EULER = '''
+@equation
+def network_step(step, dt, x, s, u, p, F, I):
+    """Advance the network by one step of exponential Euler: drive and rate held, the linear equation exact."""
+    n = <states>
+    k0 = <stages>
+    drive = F[k0 : k0 + n]
+    rate = F[k0 + n : k0 + 2 * n]
+    stage(x, s, u, p, F, I, drive, rate, step, 0.0)
+    if <delays>:
+        remember(step, s, F, I)
+    for k in range(n):
+        x[k] = relaxed(x[k], drive[k], rate[k], dt)
+'''
+
+STEPPERS = {"rk4": RK4, "exponential_euler": EXPONENTIAL_EULER}
+
+NO_BODY = '''
+@compiled
+def run(first, last, dt, x, s, u, p, F, I, R):
+    """Advance from step `first` to step `last`; return the step reached and the position of a bad state or −1."""
+    for step in range(first, last):
+        apply_protocol(step * dt, p, I)
+        network_outputs(x, s, u, p, F, I)
+        network_inputs(s, u, p, F, I)
+        record(step, x, s, u, I, R)
+        network_step(step, dt, x, s, u, p, F, I)
+        bad = first_bad(x)
+        if bad >= 0:
+            return step + 1, bad
+    return last, -1
+'''
+
+BODY = '''
+@equation
+def kinematics(s, F, I, T, D):
+    """Place the segments in the world; signals of the contacts' centres and of the segments that are looked at."""
+    topology, geometry, contact_segment, contact_position = T
+    rotation, position, linear, angular, centers, axis, points, work = D
+    n, body = <joints>, <body>
+    root = body + 2 * n
+    forward_kinematics(topology, geometry, s[body : body + n], s[root : root + 7], rotation, position)
+    contact_positions(contact_segment, contact_position, rotation, position, centers)
+    for k in range(<contacts>):
+        for c in range(3):
+            s[<point> + 3 * k + c] = centers[k, c]
+    velocity = s[body + n : body + 2 * n]
+    segment_velocities(topology, geometry, velocity, s[root + 7 : root + 13], rotation, position, linear, angular)
+    for k in range(<tracked>):
+        r = I[<track> + k]
+        at = <segment_signal> + 9 * k
+        for c in range(3):
+            s[at + c] = position[r, c]
+            s[at + 6 + c] = linear[r, c]
+        s[at + 3], s[at + 4], s[at + 5] = roll_pitch_yaw(rotation[r])
+
+
+@equation
+def mechanics(x, s, u, p, F, I, T, D):
+    """Muscle lengths, velocities and moment arms, then forces and sensors."""
+    kinematics(s, F, I, T, D)
+    n, body, arms = <joints>, <body>, <arms>
+    angle = s[body : body + n]
+    velocity = s[body + n : body + 2 * n]
+    for k in range(<muscles>):
+        first, last = I[<path_first> + k], I[<path_first> + k + 1]
+        joint = I[<path_joint> + first : <path_joint> + last]
+        arm = F[arms + first : arms + last]
+        if I[<path_kind> + k] == 0:
+            arm[:] = p[<path_arm> + first : <path_arm> + last]
+            reference = p[<path_reference> + first : <path_reference> + last]
+            s[<length_signal> + k] = constant_path(p[<path_length> + k], reference, arm, joint, angle)
+        else:
+            s[<length_signal> + k] = lines_length(k, p, I, T, D, joint, arm)
+        speed = 0.0
+        for h in range(last - first):
+            speed -= arm[h] * velocity[joint[h]]
+        s[<velocity_signal> + k] = speed
+    evaluate_mechanics(x, s, u, p, F, I)
+
+
+@equation
+def lines_length(k, p, I, T, D, joint, arm):
+    """Place the points of muscle k in the world, measure the lines between them, fill the moment arms."""
+    topology, geometry, contact_segment, contact_position = T
+    rotation, position, linear, angular, centers, axis, points, work = D
+    n, segments = <joints>, <segments>
+    for r in range(1, segments):
+        for c in range(3):
+            axis[topology[r, 1], c] = world_axis(geometry, rotation, r, c)
+    first, last = I[<path_point_first> + k], I[<path_point_first> + k + 1]
+    carrier = I[<path_segment> + first : <path_segment> + last]
+    for h in range(last - first):
+        r = carrier[h]
+        at = <path_point> + 3 * (first + h)
+        for c in range(3):
+            points[h, c] = position[r, c] + (
+                rotation[r, c, 0] * p[at] + rotation[r, c, 1] * p[at + 1] + rotation[r, c, 2] * p[at + 2]
+            )
+    moved = I[<moved> : <moved> + n * segments].reshape(n, segments)
+    child = I[<child> : <child> + n]
+    slide = I[<slide> : <slide> + n]
+    return straight_path(points[: last - first], carrier, moved, axis, position, child, slide, joint, arm)
+
+
+@equation
+def torques(dt, x, s, u, p, F, I, T, D):
+    """Torques of muscles, joint dampers and joint springs, coupled with the body; they go to the torque signals."""
+    n, m, body = <joints>, <muscles>, <body>
+    angle = s[body : body + n]
+    velocity = s[body + n : body + 2 * n]
+    torque = s[<torque> : <torque> + n]
+    w = <work>
+    mass = F[w : w + n * n].reshape(n, n)
+    damping = F[w + n * n : w + 2 * n * n].reshape(n, n)
+    acceleration = F[w + 2 * n * n : w + 2 * n * n + n]
+    force = F[w + 2 * n * n + n : w + 2 * n * n + n + m]
+    slope = F[w + 2 * n * n + n + m : w + 2 * n * n + n + 2 * m]
+    first = I[<path_first> : <path_first> + m + 1]
+    joint = I[<path_joint> : <path_joint> + first[m]]
+    arms = F[<arms> : <arms> + first[m]]
+    for k in range(m):
+        force[k] = s[I[<force_slot> + k]]
+        slope[k] = max(0.0, s[I[<damping_slot> + k]] + dt * s[I[<stiffness_slot> + k]])
+    damping[:] = 0.0
+    for j in range(n):
+        d, k = p[<damping> + j], p[<joint_stiffness> + j]
+        torque[j] = -k * (angle[j] - p[<rest_angle> + j]) - d * velocity[j]
+        damping[j, j] = d + dt * k
+    muscle_torque(force, arms, first, joint, torque)
+    if <explicit>:
+        return
+    muscle_damping(slope, arms, first, joint, damping)
+    mass_matrix(T[0], T[1], <root>, D[0], D[1], D[7], mass)
+    last_velocity = F[<last_velocity> : <last_velocity> + n]
+    last_torque = F[<last_torque> : <last_torque> + n]
+    if np.isnan(last_torque[0]):
+        last_torque[:] = torque
+        last_velocity[:] = velocity
+    observer_implicit(dt, mass, damping, torque, velocity, last_velocity, last_torque, acceleration)
+    last_torque[:] = torque
+    last_velocity[:] = velocity
+
+
+@compiled
+def tick(number, dt, x, s, u, p, F, I, R, T, D):
+    """One body step but for the body: the state read from it stands in s, the torque to apply is left there.
+
+    Returns the position of a joint whose torque is not finite, or −1.
+    """
+    apply_protocol(number * dt, p, I)
+    network_outputs(x, s, u, p, F, I)
+    mechanics(x, s, u, p, F, I, T, D)
+    network_inputs(s, u, p, F, I)
+    torques(dt, x, s, u, p, F, I, T, D)
+    record(number, x, s, u, I, R)
+    return first_bad(s[<torque> : <torque> + <joints>])
+
+
+@compiled
+def advance(number, dt, x, s, u, p, F, I):
+    """Advance the network over body step `number`, sensors held; return the position of a bad state or −1."""
+    steps = <substeps>
+    for step in range(number * steps, (number + 1) * steps):
+        network_step(step, dt, x, s, u, p, F, I)
+    return first_bad(x)
+'''
+
+NETWORK = GATHER + "\n" + NETWORK

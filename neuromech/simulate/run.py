@@ -1,0 +1,167 @@
+"""Time: the loop that steps network and body, records, and ends with an outcome."""
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from neuromech.bodies.base import Body
+from neuromech.bodies.factory import open_body
+from neuromech.compiler.program import Memory, Program
+from neuromech.errors import RunError
+from neuromech.simulate.adaptive import breakpoints, integrate, is_adaptive
+from neuromech.simulate.fall import FallRule
+from neuromech.simulate.initial import initial_states
+from neuromech.simulate.recorder import Recorder
+from neuromech.simulate.recording import Outcome, Recording
+
+Progress = Callable[[float], None]
+
+_SECONDS_BETWEEN_REPORTS = 0.05
+
+
+@dataclass
+class _Run:
+    """What the loops share: `done` is the number of ticks that are complete."""
+
+    program: Program
+    memory: Memory
+    recorder: Recorder
+    ticks: int
+    progress: Progress | None
+    done: int = 0
+
+    @property
+    def now(self) -> float:
+        return self.done * self.program.tick
+
+    def report(self) -> None:
+        if self.progress is not None:
+            self.progress(self.now)
+
+    def bad_state(self, position: int) -> Outcome:
+        name = next(name for name, place in self.program.layout.states.items() if place == position)
+        return Outcome("diverged", self.now, f"state {name} is not a finite number any more")
+
+
+def simulate(
+    program: Program, *, seed: int | None = None, progress: Progress | None = None, duration: float | None = None
+) -> Recording:
+    """Run a program to the end of its protocol.
+
+    Args:
+        program: from `lower`.
+        seed: of random initial states; that of the protocol where not given.
+        progress: is told the simulated time (s), about twenty times a second.
+        duration: simulated time (s); that of the protocol where not given.
+
+    Returns:
+        The recording. Its outcome says whether the run finished, fell, diverged, or was stopped by the user.
+
+    Raises:
+        DocumentError: the engine cannot move this body.
+    """
+    protocol = program.graph.document.experiment.protocol
+    used_seed = protocol.seed if seed is None else seed
+    ticks = round((float(protocol.duration) if duration is None else duration) / program.tick)
+    memory = program.memory()
+    memory.x[:] = initial_states(program, used_seed)
+    run = _Run(program, memory, Recorder(program, memory.I, ticks), ticks, progress)
+    started = time.perf_counter()
+    outcome, engine = _with_body(run) if program.tree else (_ended(run, _network), "none")
+    wall = time.perf_counter() - started
+    return run.recorder.recording(run.done, outcome, used_seed, engine, wall)
+
+
+def _ended(run: _Run, loop: Callable[[_Run], Outcome | None]) -> Outcome:
+    """Return how a loop ended, whatever ended it."""
+    try:
+        return loop(run) or Outcome("finished", run.now)
+    except KeyboardInterrupt:
+        return Outcome("stopped", run.now, "stopped by the user")
+    except RunError as error:
+        return Outcome("diverged", run.now, str(error))
+
+
+def _network(run: _Run) -> Outcome | None:
+    run.program.module.begin(*run.memory.buffers)
+    return _network_adaptive(run) if is_adaptive(run.program) else _network_fixed(run)
+
+
+def _network_fixed(run: _Run) -> Outcome | None:
+    advance = run.program.module.run
+    chunk = 1
+    while run.done < run.ticks:
+        started = time.perf_counter()
+        last = min(run.done + chunk, run.ticks)
+        run.done, bad = advance(run.done, last, run.program.tick, *run.memory.buffers, run.recorder.samples)
+        if bad >= 0:
+            return run.bad_state(bad)
+        run.report()
+        spent = time.perf_counter() - started
+        chunk = max(1, min(100_000, int(chunk * _SECONDS_BETWEEN_REPORTS / max(spent, 1e-6)), chunk * 10))
+    return None
+
+
+def _network_adaptive(run: _Run) -> Outcome | None:
+    tick, memory = run.program.tick, run.memory
+    marks = breakpoints(run.program, run.ticks * tick)
+    for start, end in zip(marks, marks[1:], strict=False):
+        first, last = round(start / tick), round(end / tick)
+        states = integrate(run.program, memory, np.linspace(start, end, last - first + 1))
+        for row in range(last - first):
+            memory.x[:] = states[row]
+            run.program.module.sample(first + row, *memory.buffers, run.recorder.samples)
+        memory.x[:] = states[-1]
+        run.done = last
+        run.report()
+    return None
+
+
+def _with_body(run: _Run) -> tuple[Outcome, str]:
+    model = run.program.graph.body
+    if model is None:
+        raise ValueError("a program with a tree has a body")
+    with open_body(model, run.program.tick) as body:
+        engine = f"{body.engine.name} {body.engine.version}"
+        return _ended(run, lambda same: _body_loop(same, body)), engine
+
+
+def _body_loop(run: _Run, body: Body) -> Outcome | None:
+    program, memory = run.program, run.memory
+    state = memory.s[program.header["body"] :][: body.layout.size]
+    torque = memory.s[program.header["torque"] :][: body.layout.joints]
+    fall = FallRule.of(program.graph.document.experiment.protocol.fall, body.layout)
+    buffers, kinematics = memory.buffers, (memory.T, memory.D)
+    samples, dt = run.recorder.samples, program.tick
+    advance = _adaptive_advance(program, memory) if is_adaptive(program) else program.module.advance
+    reported = time.perf_counter()
+    body.read(state)
+    program.module.begin(*buffers)
+    for number in range(run.ticks):
+        body.read(state)
+        bad = program.module.tick(number, dt, *buffers, samples, *kinematics)
+        if bad >= 0:
+            return Outcome("diverged", run.now, f"the torque at joint {body.joints[bad]} is not a finite number any more")
+        fallen = fall.broken(state)
+        if fallen:
+            return Outcome("fell", run.now, fallen)
+        bad = advance(number, dt, *buffers)
+        if bad >= 0:
+            return run.bad_state(bad)
+        body.step(torque)
+        run.done = number + 1
+        if time.perf_counter() - reported > _SECONDS_BETWEEN_REPORTS:
+            run.report()
+            reported = time.perf_counter()
+    run.report()
+    return None
+
+
+def _adaptive_advance(program: Program, memory: Memory) -> Callable[..., int]:
+    def advance(number: int, dt: float, *_buffers: object) -> int:
+        memory.x[:] = integrate(program, memory, np.array([number * dt, (number + 1) * dt]))[-1]
+        return int(program.module.first_bad(memory.x))
+
+    return advance
