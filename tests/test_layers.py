@@ -112,7 +112,7 @@ def test_package_roots_hold_a_docstring_only():
         ("neuromech.spec.load", "from . import fields", "package root"),
         (
             "neuromech.spec.load",
-            "if TYPE_CHECKING:\n    from neuromech.graph.model import ModelGraph",
+            "if TYPE_CHECKING:\n    from neuromech.graph.model import Element",
             "not below spec",
         ),
         ("neuromech.cli.run", "from neuromech.testing.law import law", "not below cli"),

@@ -9,7 +9,7 @@ from typing import Annotated
 import typer
 
 from neuromech.cli.problems import Format
-from neuromech.cli.terminal import exits, report_bug, write_line
+from neuromech.cli.terminal import exits, keep_stdout_for_results, report_bug, write_line
 
 Spec = Annotated[Path, typer.Argument(metavar="SPEC", help="A document.")]
 Paths = Annotated[list[Path], typer.Argument(metavar="PATH…", help="Documents, or folders of documents.")]
@@ -33,6 +33,7 @@ app = typer.Typer(
 def main() -> None:
     """Run the command line; ends the process with the command's exit code."""
     sys.excepthook = report_bug
+    keep_stdout_for_results()
     typer.main.get_command(app)(prog_name="neuromech")
 
 
@@ -62,10 +63,13 @@ def run(
     duration: Annotated[str | None, typer.Option(metavar="TIME", help="Simulate this long, for example '5 s'.")] = None,
     out: Annotated[Path | None, typer.Option(metavar="DIR", help="Output folder; default: results/<name>.")] = None,
     as_json: AsJson = False,
-    figures: Annotated[bool, typer.Option(" /--no-figures", help="Draw no figures.")] = True,
+    figures: Annotated[bool, typer.Option("--figures/--no-figures", help="Draw figures.", show_default=False)] = True,
     quiet: Annotated[bool, typer.Option("--quiet", help="No progress bar and no tables.")] = False,
 ) -> int:
-    """Simulate a document: results file, figures, summary and the claims that one run can judge."""
+    """Simulate a document and write its results.
+
+    Gives a results file, figures, a summary, and the verdicts on those claims that need no other run.
+    """
     from neuromech.cli.run import Request, run
 
     return run(Request(spec, tuple(overrides or ()), seed, duration, out, as_json, figures, quiet))
@@ -99,7 +103,7 @@ def explain(
     path: Annotated[str, typer.Argument(metavar="PATH", help="Dotted path of a value.")],
     overrides: Overrides = None,
 ) -> int:
-    """Say which file and line gave a value, and what the value means."""
+    """Say which file and line gave a value."""
     from neuromech.cli.explain import explain
 
     return explain(spec, path, tuple(overrides or ()))
@@ -117,7 +121,10 @@ def schema(out: Output = None) -> int:
 @app.command()
 @exits
 def graph(spec: Spec, out: Output = None, overrides: Overrides = None) -> int:
-    """List the elements of a model, or draw it (.svg) or export it (.graphml)."""
+    """Show the elements and connections of a model.
+
+    With --out file.svg the model is drawn, with --out file.graphml it is exported.
+    """
     from neuromech.cli.graph import graph
 
     return graph(spec, out, tuple(overrides or ()))
@@ -149,7 +156,10 @@ def compile_(spec: Spec, overrides: Overrides = None) -> int:
 def components(
     kind: Annotated[str | None, typer.Argument(metavar="KIND", help="One kind, or one family.")] = None,
 ) -> int:
-    """Show the vocabulary: kinds, parameters, units, bounds, ports and sources."""
+    """Show the vocabulary.
+
+    Without KIND one line for each kind; with KIND its parameters with units, defaults and bounds.
+    """
     from neuromech.cli.components import components
 
     return components(kind)
@@ -161,7 +171,7 @@ def new(
     name: Annotated[str, typer.Argument(metavar="NAME", help="Name of the new document; NAME.yaml is written.")],
     base: Annotated[str, typer.Option("--from", metavar="SPEC", help="A shipped document, such as cat/suspended.")],
 ) -> int:
-    """Start a document of your own from one that comes with the package."""
+    """Start a document that extends a shipped one."""
     from neuromech.cli.new import new
 
     return new(name, base)

@@ -22,7 +22,9 @@ def new(name: str, base: str) -> int:
         raise _refusal("bad-name", f"'{name}' is no name", "start with a letter, then letters, digits, '_', '-' or '+'")
     source = shipped_file(base)
     file = Path(f"{name}.yaml")
-    text = stub(name, Path(os.path.relpath(source)), load(source, catalogue=Catalogue.installed()).experiment.parameters)
+    text = stub(
+        name, Path(os.path.relpath(source)), load(source, catalogue=Catalogue.installed()).experiment.parameters
+    )
     try:
         with file.open("x", encoding="utf-8") as stream:
             stream.write(text)

@@ -47,6 +47,18 @@ def write_json(value: object) -> None:
     write_line(json.dumps(value, indent=2, ensure_ascii=False, allow_nan=False))
 
 
+def keep_stdout_for_results() -> None:
+    """Let only Python write to stdout: engines print their build date and their chatter there from C."""
+    if sys.stdout is None:
+        return
+    encoding = sys.stdout.encoding
+    sys.stdout.flush()
+    sys.stdout = os.fdopen(os.dup(1), "w", encoding=encoding, errors="backslashreplace")
+    null = os.open(os.devnull, os.O_WRONLY)
+    os.dup2(null, 1)
+    os.close(null)
+
+
 def complain(text: str) -> None:
     """Write an error to stderr as it is."""
     sys.stderr.write(f"{text}\n")
