@@ -156,17 +156,18 @@ class Unit:
         if not math.isfinite(quantity):
             message = "must be a finite number"
         elif self.above is not None and not quantity > self.above:
-            message = f"must be greater than {self._show(self.above)}"
+            message = f"must be greater than {self.written(self.above)}"
         elif self.least is not None and quantity < self.least:
-            message = f"must be at least {self._show(self.least)}"
+            message = f"must be at least {self.written(self.least)}"
         elif self.most is not None and quantity > self.most:
-            message = f"must be at most {self._show(self.most)}"
+            message = f"must be at most {self.written(self.most)}"
         else:
             return quantity
         raise PydanticCustomError("out-of-range", "{message}", {"message": message, "got": text, "hint": None})
 
-    def _show(self, bound: float) -> str:
-        return f"{bound / unit_factor(self.example)[0]:g} {self.example}".strip()
+    def written(self, value: float) -> str:
+        """Return an SI value as text in the unit of the example."""
+        return f"{value / unit_factor(self.example)[0]:g} {self.example}".strip()
 
     def __get_pydantic_core_schema__(self, _source: object, _handler: GetCoreSchemaHandler) -> core_schema.CoreSchema:
         """Validate with `parse`; serialise as a plain SI number."""

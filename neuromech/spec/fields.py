@@ -56,6 +56,19 @@ class OfCatalogue:
         return {"$ref": f"#/$defs/{self.family}"}
 
 
+@dataclass(frozen=True, slots=True)
+class KindFromKey:
+    """Marks a map of maps of maps of components: its own keys are kinds, and a bare value stands for one field.
+
+    Args:
+        family: family of the components.
+        bare: the field that a bare value gives.
+    """
+
+    family: Family
+    bare: str
+
+
 def _error(code: str, message: str, got: str | None, hint: str | None) -> PydanticCustomError:
     return PydanticCustomError(code, "{message}", {"message": message, "got": got, "hint": hint})  # type: ignore[arg-type]
 

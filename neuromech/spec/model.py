@@ -10,7 +10,7 @@ from typing import Annotated, Literal
 from pydantic import Field, StringConstraints, field_validator
 
 from neuromech.components.base import Drive, Muscle, Neuron, Sensor, SpecModel, Synapse
-from neuromech.spec.fields import OfCatalogue
+from neuromech.spec.fields import KindFromKey, OfCatalogue
 from neuromech.units import (
     ACCELERATION,
     ANGLE,
@@ -51,7 +51,9 @@ class Network(SpecModel):
 
     neurons: dict[Name, Annotated[Neuron, OfCatalogue("neuron")]] = {}
     drives: dict[Name, Annotated[Drive, OfCatalogue("drive")]] = {}
-    synapses: dict[str, dict[str, dict[str, Annotated[Synapse, OfCatalogue("synapse")]]]] = {}
+    synapses: Annotated[
+        dict[str, dict[str, dict[str, Annotated[Synapse, OfCatalogue("synapse")]]]], KindFromKey("synapse", "weight")
+    ] = {}
 
     @field_validator("synapses", mode="before")
     @classmethod

@@ -7,7 +7,7 @@ from typing import Any
 from neuromech.spec.node import ListNode, MapNode, Node, ScalarNode, scalar_value
 from neuromech.units import BoundText
 
-_WORD = re.compile(r"[A-Za-z0-9_.+/-][A-Za-z0-9_.+/ ^*()%µ-]*$")
+_WORD = re.compile(r"(-(?=[0-9])|[A-Za-z0-9_+/])[A-Za-z0-9_.+/ ^*()%µ-]*$")
 
 
 def plain(node: Node) -> Any:
@@ -57,7 +57,7 @@ def _scalar(node: ScalarNode) -> str:
 
 
 def _quoted(text: str) -> str:
-    harmless = _WORD.match(text) and not text.endswith(" ") and not text.startswith(("-", "."))
+    harmless = _WORD.match(text) and not text.endswith(" ")
     if harmless and isinstance(scalar_value(ScalarNode(text, False, None)), str):
         return text
     return json.dumps(text, ensure_ascii=False)

@@ -48,7 +48,7 @@ def parse(content: bytes, file: str) -> MapNode:
     text = _decode(content, file)
     builder = TreeBuilder(file)
     try:
-        for event in YAML(pure=True).parse(text):
+        for event in YAML(typ="safe", pure=True).parse(text):
             builder.take(event)
     except MarkedYAMLError as error:
         raise DocumentError([_syntax(error, file, text)]) from error
@@ -66,7 +66,7 @@ def parse_value(text: str) -> Node:
     """
     builder = TreeBuilder(None)
     try:
-        for event in YAML(pure=True).parse(text):
+        for event in YAML(typ="safe", pure=True).parse(text):
             builder.take(event)
     except (YAMLError, ValueError, OverflowError) as error:
         raise DocumentError([Problem("syntax", "", "the value is not YAML", repr(text[:60]))]) from error

@@ -8,24 +8,30 @@ from typing import Annotated, Any, Literal, Union, get_args, get_origin
 
 from pydantic import BaseModel
 
+from neuromech.components.base import Family
 from neuromech.components.catalogue import Catalogue
-from neuromech.spec.fields import OfCatalogue
+from neuromech.spec.fields import KindFromKey, OfCatalogue
 from neuromech.spec.node import MapNode, Node, ScalarNode
 from neuromech.units import Unit
 
 
 @dataclass(frozen=True, slots=True)
 class Fields:
-    """A map with the keys of a class."""
+    """A map with the keys of a class, or, where `bare` is set, a bare value for that one field."""
 
     model: type[BaseModel]
+    bare: str | None = None
 
 
 @dataclass(frozen=True, slots=True)
 class Names:
-    """A map with names of the author's choice; `value` is the annotation of what stands under them."""
+    """A map with keys of the author's choice; `value` is the annotation of what stands under them.
+
+    `named` is set where the keys are names of elements, and not patterns, paths or names of other scopes.
+    """
 
     value: Any
+    named: bool
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,6 +51,23 @@ class Choice:
 
 
 @dataclass(frozen=True, slots=True)
+class Table:
+    """Components of one family as {kind: {name: {name: component}}}; a bare value gives the field `bare`."""
+
+    family: Family
+    bare: str
+
+    def inner(self, model: type[BaseModel]) -> Any:
+        """Return the annotation of what stands under the kind of a class."""
+        return dict[str, dict[str, Annotated[model, _Bare(self.bare)]]]  # type: ignore[valid-type]
+
+
+@dataclass(frozen=True, slots=True)
+class _Bare:
+    field: str
+
+
+@dataclass(frozen=True, slots=True)
 class Leaf:
     """A single value. `unit` is set where it is a quantity, `words` where it is one of several words."""
 
@@ -53,23 +76,22 @@ class Leaf:
     words: tuple[Any, ...] = ()
 
 
-Shape = Fields | Names | Items | Choice | Leaf
+Shape = Fields | Names | Items | Choice | Table | Leaf
 
 
 def shape_of(annotation: Any, catalogue: Catalogue) -> Shape:
     """Return what an annotation of the model allows; `| None` is looked through."""
     base, marks = _peel(annotation)
     for mark in marks:
-        if isinstance(mark, OfCatalogue):
-            kinds = catalogue.kinds(mark.family)
-            return Choice(tuple(catalogue.classes[mark.family, kind] for kind in kinds), mark.family)
-        if isinstance(mark, Unit):
-            return Leaf((float,), unit=mark)
+        shape = _marked(base, mark, catalogue)
+        if shape is not None:
+            return shape
     origin = get_origin(base)
     if isinstance(base, type) and origin is None and issubclass(base, BaseModel):
         return Fields(base)
     if origin is dict:
-        return Names(get_args(base)[1])
+        key, value = get_args(base)
+        return Names(value, named=key is not str)
     if origin in (tuple, list):
         values = tuple(value for value in get_args(base) if value is not Ellipsis)
         return Items(values, origin is tuple and Ellipsis not in get_args(base))
@@ -78,6 +100,17 @@ def shape_of(annotation: Any, catalogue: Catalogue) -> Shape:
     if origin in (Union, UnionType):
         return _union(get_args(base), catalogue)
     return Leaf((base,))
+
+
+def _marked(base: Any, mark: object, catalogue: Catalogue) -> Shape | None:
+    if isinstance(mark, OfCatalogue):
+        kinds = catalogue.kinds(mark.family)
+        return Choice(tuple(catalogue.classes[mark.family, kind] for kind in kinds), mark.family)
+    if isinstance(mark, KindFromKey):
+        return Table(mark.family, mark.bare)
+    if isinstance(mark, Unit):
+        return Leaf((float,), unit=mark)
+    return Fields(base, mark.field) if isinstance(mark, _Bare) else None
 
 
 def field_annotation(model: type[BaseModel], name: str) -> Any:
@@ -113,12 +146,23 @@ def step(annotation: Any, key: str | int, node: Node | None, catalogue: Catalogu
     if isinstance(shape, Choice):
         model = chosen(shape, node)
         return field_annotation(model, str(key)) if model else None
+    if isinstance(shape, Table):
+        found = catalogue.find(shape.family, str(key))
+        return shape.inner(found) if found else None
     if isinstance(shape, Names):
         return shape.value
     if isinstance(shape, Items) and isinstance(key, int):
         index = key if shape.fixed else 0
         return shape.values[index] if index < len(shape.values) else None
     return None
+
+
+def narrowed(annotation: Any, node: Node, catalogue: Catalogue) -> Any:
+    """Return the annotation that a node is judged by: where a bare value stands for a map, that of its field."""
+    shape = shape_of(annotation, catalogue)
+    if isinstance(shape, Fields) and shape.bare and isinstance(node, ScalarNode):
+        return field_annotation(shape.model, shape.bare)
+    return annotation
 
 
 def model_of(annotation: Any, node: Node | None, catalogue: Catalogue) -> type[BaseModel] | None:
@@ -131,7 +175,7 @@ def model_of(annotation: Any, node: Node | None, catalogue: Catalogue) -> type[B
 
 def typed(node: Node, annotation: Any, catalogue: Catalogue, path: str = "") -> Iterator[tuple[str, Node, Any]]:
     """Yield (path, node, annotation) for all of a tree that the model knows, in authored order."""
-    yield path, node, annotation
+    yield path, node, narrowed(annotation, node, catalogue)
     for key, child in _children(node):
         inner = step(annotation, key, node, catalogue)
         if inner is not None:
@@ -171,4 +215,4 @@ def _union(parts: tuple[Any, ...], catalogue: Catalogue) -> Shape:
     models = tuple(shape.model for shape in shapes if isinstance(shape, Fields))
     if len(models) == len(shapes):
         return Choice(models, "")
-    return Leaf(tuple(kind for shape in shapes if isinstance(shape, Leaf) for kind in shape.types))
+    return Leaf((*(kind for shape in shapes if isinstance(shape, Leaf) for kind in shape.types), *models))

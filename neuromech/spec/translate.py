@@ -12,7 +12,20 @@ from neuromech.errors import Problem, did_you_mean
 from neuromech.spec.model import Experiment, Instance
 from neuromech.spec.node import ListNode, MapNode, Node, ScalarNode, is_missing, join, scalar_value
 from neuromech.spec.positions import Positions
-from neuromech.spec.shape import Choice, Fields, Items, Leaf, Names, Shape, kind_word, model_of, shape_of, step
+from neuromech.spec.shape import (
+    Choice,
+    Fields,
+    Items,
+    Leaf,
+    Names,
+    Shape,
+    Table,
+    kind_word,
+    model_of,
+    narrowed,
+    shape_of,
+    step,
+)
 from neuromech.spec.substitute import REFERENCE
 from neuromech.units import repr_short
 
@@ -21,13 +34,17 @@ _TYPE_WORDS = {str: "text", int: "a whole number", float: "a number", bool: "tru
 
 @dataclass(frozen=True, slots=True)
 class _Place:
-    """Where an error belongs: the last place of its path that exists in the tree."""
+    """Where an error belongs: the last place of its path that exists in the tree.
+
+    `rest` is what of the path is left, `parent` the class whose key the place is, `kind_path` where its kind stands.
+    """
 
     path: str
     node: Node
     annotation: Any
     rest: tuple[str | int, ...]
     parent: type[BaseModel] | None
+    kind_path: str
 
 
 def translate(
@@ -59,7 +76,7 @@ def _place(loc: tuple[str | int, ...], tree: MapNode, catalogue: Catalogue) -> _
     node: Node = tree
     annotation: Any = Experiment
     parent: type[BaseModel] | None = None
-    path = ""
+    path, table = "", ""
     segments = list(loc)
     while segments and annotation is not None:
         shape = shape_of(annotation, catalogue)
@@ -71,7 +88,9 @@ def _place(loc: tuple[str | int, ...], tree: MapNode, catalogue: Catalogue) -> _
         parent = model_of(annotation, node, catalogue)
         annotation = step(annotation, segments[0], node, catalogue)
         path, node = join(path, segments.pop(0)), child
-    return _Place(path, node, annotation, tuple(segments), parent)
+        table = path if isinstance(shape, Table) else table
+    annotation = narrowed(annotation, node, catalogue) if annotation is not None else None
+    return _Place(path, node, annotation, tuple(segments), parent, table or join(path, "kind"))
 
 
 def _child(node: Node, key: str | int) -> Node | None:
@@ -113,15 +132,15 @@ def _problem(error: ErrorDetails, place: _Place, catalogue: Catalogue) -> tuple[
         return Problem("too-few", place.path, "must not be empty", None), False
     if isinstance(shape, Items) and isinstance(place.node, ListNode):
         return _length(place, shape, context), False
-    hint = _type_hint(shape, place.node)
-    return Problem("wrong-type", place.path, f"must be {expected(shape)}", got, hint), False
+    message = f"must be {expected(shape)}"
+    return Problem("wrong-type", place.path, message, got, _type_hint(shape, place.node)), False
 
 
 def _own(code: str, context: dict[str, Any], place: _Place) -> Problem:
     path = place.path
     got: str | None = context["got"]
     if code == "unknown-kind":
-        path = join(path, "kind")
+        path = place.kind_path
     elif isinstance(place.node, ScalarNode) and place.node.parameter is not None:
         got = got_text(place.node)
     elif isinstance(place.node, ScalarNode) and scalar_value(place.node) is None:
@@ -181,7 +200,7 @@ def got_text(node: Node) -> str:
 
 def expected(shape: Shape) -> str:
     """Return what a place wants, in the words of an error message."""
-    if isinstance(shape, Fields | Names | Choice):
+    if isinstance(shape, Fields | Names | Choice | Table):
         return "a map"
     if isinstance(shape, Items):
         return f"a list of {len(shape.values)}" if shape.fixed else "a list"
