@@ -1,6 +1,6 @@
 """The runs that claims need: each changed document is simulated once for each seed, however many claims look at it."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -122,6 +122,11 @@ def judge_run(document: Document, recording: Recording) -> list[Verdict]:
         for identifier, claim in document.experiment.claims.items()
         if needs_one_run(claim)
     ]
+
+
+def all_met(verdicts: Iterable[Verdict]) -> bool:
+    """Tell whether every claim is met."""
+    return all(verdict.verdict == "met" for verdict in verdicts)
 
 
 def needs_one_run(claim: Claim) -> bool:

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from neuromech.cli.documents import checked_graph
-from neuromech.cli.terminal import FINISHED, notes, write_line
+from neuromech.cli.terminal import FINISHED, note, write_line
 from neuromech.compiler.lower import lower
 
 
@@ -12,5 +12,5 @@ def compile_(spec: Path, overrides: Sequence[str]) -> int:
     """Write the generated Python module to stdout and its file to stderr; return the exit code."""
     program = lower(checked_graph(spec, overrides))
     write_line(program.source.rstrip("\n"))
-    notes().print(f"cached in {program.module_file}", markup=False)
+    note(f"cached in {program.module_file}")
     return FINISHED

@@ -1,12 +1,14 @@
 """`neuromech components`: the vocabulary as tables."""
 
 from collections.abc import Iterable
+from typing import get_args, get_origin
 
 from pydantic.fields import FieldInfo
 from pydantic_core import PydanticUndefined
 from rich.table import Table
+from rich.text import Text
 
-from neuromech.cli.terminal import FINISHED, results
+from neuromech.cli.terminal import FINISHED, results, write_line
 from neuromech.components.base import Component, Port
 from neuromech.components.catalogue import Catalogue
 from neuromech.errors import DocumentError, Problem, did_you_mean
@@ -36,20 +38,20 @@ def overview(classes: Iterable[type[Component]]) -> Table:
     """Return a table of kinds: family, inputs, outputs, source."""
     table = Table("kind", "family", "inputs", "outputs", "source", box=None, pad_edge=False)
     for cls in sorted(classes, key=lambda cls: (cls.family, cls.kind_name())):
-        table.add_row(cls.kind_name(), cls.family, _ports(cls.inputs), _ports(cls.outputs), cls.source)
+        cells = (cls.kind_name(), cls.family, _ports(cls.inputs), _ports(cls.outputs), cls.source)
+        table.add_row(*(Text(cell) for cell in cells))
     return table
 
 
 def show(cls: type[Component]) -> None:
     """Write one kind in full: what it is, its ports, states and parameters."""
-    out = results()
-    out.print(f"{cls.kind_name()} ({cls.family}): {(cls.__doc__ or '').strip().partition(chr(10))[0]}", markup=False)
-    out.print(f"source: {cls.source}", markup=False)
-    out.print(f"inputs: {_ports(cls.inputs) or 'none'}; outputs: {_ports(cls.outputs) or 'none'}", markup=False)
+    meaning = (cls.__doc__ or "").strip().partition("\n")[0]
     states = ", ".join(state.name for state in cls.states) or "none"
-    out.print(f"states: {states}", markup=False)
-    out.print(parameter_table(cls))
-    out.print()
+    write_line(f"{cls.kind_name()} ({cls.family}): {meaning}")
+    write_line(f"source: {cls.source}")
+    write_line(f"inputs: {_ports(cls.inputs) or 'none'}; outputs: {_ports(cls.outputs) or 'none'}; states: {states}")
+    results().print(parameter_table(cls))
+    write_line("")
 
 
 def parameter_table(cls: type[Component]) -> Table:
@@ -58,7 +60,8 @@ def parameter_table(cls: type[Component]) -> Table:
     for name, field in cls.model_fields.items():
         if name != "kind":
             unit = _unit(field)
-            table.add_row(name, _type(field, unit), _default(field, unit), _bounds(unit) if unit else "")
+            cells = (name, _type(field, unit), _default(field, unit), _bounds(unit) if unit else "")
+            table.add_row(*(Text(cell) for cell in cells))
     return table
 
 
@@ -74,7 +77,14 @@ def _type(field: FieldInfo, unit: Unit | None) -> str:
 
 
 def _type_name(annotation: object) -> str:
-    return annotation.__name__ if isinstance(annotation, type) else str(annotation).replace("typing.", "")
+    """Return a class's name, a literal's words, or those of the parts of a union."""
+    if annotation is type(None):
+        return "nothing"
+    if isinstance(annotation, type) and not get_args(annotation):
+        return annotation.kind_name() if issubclass(annotation, Component) else annotation.__name__
+    parts = [part if isinstance(part, str) else _type_name(part) for part in get_args(annotation)]
+    name = get_origin(annotation)
+    return f"{name.__name__} of {', '.join(parts)}" if name in (dict, list, tuple) else " or ".join(parts)
 
 
 def _default(field: FieldInfo, unit: Unit | None) -> str:

@@ -9,7 +9,7 @@ from typing import Annotated
 import typer
 
 from neuromech.cli.problems import Format
-from neuromech.cli.terminal import exits, keep_stdout_for_results, report_bug, write_line
+from neuromech.cli.terminal import exits, keep_stdout_for_results, report_bug, without_banners, write_line
 
 Spec = Annotated[Path, typer.Argument(metavar="SPEC", help="A document.")]
 Paths = Annotated[list[Path], typer.Argument(metavar="PATH…", help="Documents, or folders of documents.")]
@@ -70,7 +70,8 @@ def run(
 
     Gives a results file, figures, a summary, and the verdicts on those claims that need no other run.
     """
-    from neuromech.cli.run import Request, run
+    with without_banners():
+        from neuromech.cli.run import Request, run
 
     return run(Request(spec, tuple(overrides or ()), seed, duration, out, as_json, figures, quiet))
 
@@ -91,7 +92,8 @@ def validate(
 @exits
 def verify(paths: Paths, as_json: AsJson = False, seeds: Seeds = None) -> int:
     """Run documents and judge all their claims."""
-    from neuromech.cli.verify import verify
+    with without_banners():
+        from neuromech.cli.verify import verify
 
     return verify(paths, as_json, seeds)
 

@@ -5,7 +5,7 @@ import re
 from pathlib import Path
 
 from neuromech.cli.documents import shipped_specs
-from neuromech.cli.terminal import FINISHED, notes
+from neuromech.cli.terminal import FINISHED, note
 from neuromech.components.catalogue import Catalogue
 from neuromech.errors import DocumentError, Problem, did_you_mean
 from neuromech.spec.load import load
@@ -30,7 +30,7 @@ def new(name: str, base: str) -> int:
             stream.write(text)
     except FileExistsError as error:
         raise _refusal("file-exists", f"{file} exists already", "choose another name") from error
-    notes().print(f"wrote {file}", markup=False)
+    note(f"wrote {file}")
     return FINISHED
 
 

@@ -11,8 +11,8 @@ from rich.text import Text
 
 from neuromech.analyse.claims import Verdict
 from neuromech.cli.progress import simulated_time
-from neuromech.cli.terminal import CLAIM_NOT_MET, ENDED_EARLY, FINISHED, notes, write_json
-from neuromech.cli.verdicts import all_met, verdict_table
+from neuromech.cli.terminal import CLAIM_NOT_MET, ENDED_EARLY, FINISHED, note, notes, write_json
+from neuromech.cli.verdicts import claims_table
 from neuromech.compiler.lower import lower
 from neuromech.compiler.program import Program
 from neuromech.errors import DocumentError, Problem
@@ -22,9 +22,8 @@ from neuromech.report.summary import metrics, summary_table
 from neuromech.simulate.recording import Recording
 from neuromech.simulate.run import simulate
 from neuromech.simulate.storage import save
-from neuromech.spec.document import Document
 from neuromech.units import TIME
-from neuromech.verification import judge_run
+from neuromech.verification import all_met, judge_run
 
 RESULTS_FILE = "recording.nc"
 FIGURES_FOLDER = "figures"
@@ -71,7 +70,8 @@ def run(request: Request) -> int:
     folder = _writable(request.out or Path("results") / document.experiment.name)
     recording = _simulated(program, request, duration)
     files = _write(recording, folder, request.figures)
-    finding = Finding(recording, files, _verdicts(document, recording, request))
+    verdicts = judge_run(document, recording) if _is_complete(recording, request) else []
+    finding = Finding(recording, files, verdicts)
     if request.talks:
         _show(finding)
     if request.as_json:
@@ -140,20 +140,18 @@ def _write(recording: Recording, folder: Path, figures: bool) -> list[Path]:
     return [file, *(write_figures(recording, folder / FIGURES_FOLDER) if figures else ())]
 
 
-def _verdicts(document: Document, recording: Recording, request: Request) -> list[Verdict]:
-    """Judge the claims of a complete run; a shortened run is another than the one that the claims are about."""
-    if recording.outcome.kind != "finished" or request.duration is not None:
-        return []
-    return judge_run(document, recording)
+def _is_complete(recording: Recording, request: Request) -> bool:
+    """Tell whether claims can be judged by a run: a shortened one is another than the one that they are about."""
+    return recording.outcome.kind == "finished" and request.duration is None
 
 
 def _show(finding: Finding) -> None:
     out = notes()
     out.print(summary_table(finding.recording))
     if finding.verdicts:
-        out.print(verdict_table(finding.verdicts))
+        out.print(claims_table(finding.verdicts))
     outcome = finding.recording.outcome
     ending = f"{outcome.kind} at {outcome.time:g} s" + (f": {outcome.message}" if outcome.message else "")
     out.print(Text(ending, "green" if outcome.kind == "finished" else "bold red"))
     for file in finding.files:
-        out.print(Text(f"wrote {file}"))
+        note(f"wrote {file}")

@@ -3,13 +3,15 @@
 import json
 import os
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from functools import wraps
 from types import TracebackType
-from typing import Any, ParamSpec
+from typing import Any, ParamSpec, TextIO
 
 import typer
 from rich.console import Console
+from rich.text import Text
 
 from neuromech.errors import DocumentError, NeuromechError
 
@@ -18,6 +20,7 @@ BUG = 1
 BAD_DOCUMENT = 2
 ENDED_EARLY = 3
 CLAIM_NOT_MET = 4
+WIDTH_OF_FILES = 160
 TRACEBACK_VARIABLE = "NEUROMECH_TRACEBACK"
 
 Arguments = ParamSpec("Arguments")
@@ -25,12 +28,17 @@ Arguments = ParamSpec("Arguments")
 
 def results() -> Console:
     """Return the console of stdout: what the user asked for."""
-    return Console(file=sys.stdout, highlight=False, soft_wrap=True)
+    return _console(sys.stdout)
 
 
 def notes() -> Console:
     """Return the console of stderr: progress, notes, errors."""
-    return Console(file=sys.stderr, highlight=False, soft_wrap=True)
+    return _console(sys.stderr)
+
+
+def _console(stream: TextIO) -> Console:
+    width = None if stream.isatty() or "COLUMNS" in os.environ else WIDTH_OF_FILES
+    return Console(file=stream, width=width, highlight=False, soft_wrap=True)
 
 
 def write_line(text: str) -> None:
@@ -47,6 +55,11 @@ def write_json(value: object) -> None:
     write_line(json.dumps(value, indent=2, ensure_ascii=False, allow_nan=False))
 
 
+def note(text: str) -> None:
+    """Write a line to stderr that is no error."""
+    notes().print(Text(text))
+
+
 def keep_stdout_for_results() -> None:
     """Let only Python write to stdout: engines print their build date and their chatter there from C."""
     if sys.stdout is None:
@@ -57,6 +70,20 @@ def keep_stdout_for_results() -> None:
     null = os.open(os.devnull, os.O_WRONLY)
     os.dup2(null, 1)
     os.close(null)
+
+
+@contextmanager
+def without_banners() -> Iterator[None]:
+    """Keep quiet what engines print to stderr from C while they are imported."""
+    sys.stderr.flush()
+    own, null = os.dup(2), os.open(os.devnull, os.O_WRONLY)
+    os.dup2(null, 2)
+    try:
+        yield
+    finally:
+        os.dup2(own, 2)
+        os.close(own)
+        os.close(null)
 
 
 def complain(text: str) -> None:

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from neuromech.cli.documents import checked_graph, document_files
 from neuromech.cli.problems import Format, write
-from neuromech.cli.terminal import BAD_DOCUMENT, FINISHED, notes, write_line
+from neuromech.cli.terminal import BAD_DOCUMENT, FINISHED, note, write_line
 from neuromech.errors import DocumentError, Problem
 
 
@@ -16,11 +16,11 @@ def validate(paths: Sequence[Path], form: Format) -> int:
         DocumentError: a path does not exist.
     """
     files = document_files(paths)
-    problems = [problem for file in files for problem in problems_of(file)]
-    text = write(list(dict.fromkeys(problems)), form)
+    problems = list(dict.fromkeys(problem for file in files for problem in problems_of(file)))
+    text = write(problems, form)
     if text:
         write_line(text)
-    notes().print(_verdict(len(files), len(problems)), markup=False)
+    note(_verdict(len(files), len(problems)))
     return BAD_DOCUMENT if problems else FINISHED
 
 

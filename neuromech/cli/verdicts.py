@@ -1,37 +1,38 @@
-"""Verdicts on claims as a table and as plain values."""
+"""Verdicts on claims as a table."""
 
 from collections.abc import Sequence
 
 from rich.table import Table
 from rich.text import Text
 
-from neuromech.analyse.claims import Measured, Value, Verdict
+from neuromech.analyse.claims import Measured, Verdict
 
 
-def verdict_table(verdicts: Sequence[Verdict]) -> Table:
-    """Return a table with one line for each claim."""
-    table = Table("claim", "source", "expected", "measured", "verdict", title="Claims", title_justify="left")
+def claims_table(verdicts: Sequence[Verdict]) -> Table:
+    """Return one line for each claim, those that are not met included."""
+    met = sum(verdict.verdict == "met" for verdict in verdicts)
+    table = Table(title=f"{met} of {len(verdicts)} claims met", title_justify="left")
+    for heading in ("document", "claim", "source", "published", "expected", "measured", "verdict"):
+        table.add_column(heading, overflow="fold")
     for verdict in verdicts:
+        words = (verdict.spec, verdict.claim, verdict.source, _short(verdict.published), verdict.expected)
         style = "green" if verdict.verdict == "met" else "bold red"
-        claim = Text(f"{verdict.spec}.{verdict.id}: {verdict.claim}")
-        cells = (Text(verdict.source), Text(verdict.expected), Text(measured_text(verdict.measured)))
-        table.add_row(claim, *cells, Text(verdict.verdict, style))
+        cells = (*words, measured_text(verdict.measured))
+        table.add_row(*(Text(cell) for cell in cells), Text(verdict.verdict, style))
     return table
 
 
 def measured_text(measured: Measured) -> str:
-    """Return median, range and number of runs in short."""
-    if measured.n == 1 or measured.min == measured.max:
-        spread = ""
-    else:
-        spread = f" ({_short(measured.min)} … {_short(measured.max)})"
-    return _short(measured.median) + spread + (f", n = {measured.n}" if measured.n > 1 else "")
+    """Return a measured value in words: `0.4571`, `0.4571 (0.4569 … 0.4573, n = 20)`, `trot (n = 20)`."""
+    text = _short(measured.median)
+    if measured.n == 1:
+        return text
+    same = measured.min == measured.max
+    span = "" if same else f"{_short(measured.min)} … {_short(measured.max)}, "
+    return f"{text} ({span}n = {measured.n})"
 
 
-def all_met(verdicts: Sequence[Verdict]) -> bool:
-    """Tell whether every claim is met."""
-    return all(verdict.verdict == "met" for verdict in verdicts)
-
-
-def _short(value: Value | None) -> str:
-    return f"{value:.4g}" if isinstance(value, float | int) else str(value)
+def _short(value: float | str | None) -> str:
+    if value is None:
+        return ""
+    return value if isinstance(value, str) else f"{value:.4g}"

@@ -7,10 +7,10 @@ from neuromech.cli.documents import document_files
 from neuromech.cli.progress import counted
 from neuromech.cli.terminal import CLAIM_NOT_MET, FINISHED, notes, results, write_json
 from neuromech.cli.validate import problems_of
-from neuromech.cli.verdicts import all_met, verdict_table
+from neuromech.cli.verdicts import claims_table
 from neuromech.errors import DocumentError
 from neuromech.pipeline import load_document
-from neuromech.verification import carry_out, plan
+from neuromech.verification import all_met, carry_out, plan
 
 
 def verify(paths: Sequence[Path], as_json: bool, seeds: int | None) -> int:
@@ -30,5 +30,5 @@ def verify(paths: Sequence[Path], as_json: bool, seeds: int | None) -> int:
     if as_json:
         write_json([verdict.as_dict() for verdict in verdicts])
     else:
-        results().print(verdict_table(verdicts))
+        results().print(claims_table(verdicts))
     return FINISHED if all_met(verdicts) else CLAIM_NOT_MET
