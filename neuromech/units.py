@@ -19,7 +19,9 @@ from pydantic_core import PydanticCustomError, core_schema
 NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
 _TEXT = re.compile(rf"^\s*({NUMBER})\s*(.*?)\s*$")
 _NOT_FINITE = re.compile(r"^\s*[-+]?\.?(nan|inf(inity)?)\b", re.IGNORECASE)
-_UNIT_TEXT = re.compile(r"^[A-Za-zµ%0-9 */^().-]{0,40}$")
+_POWER = r"(?:(?:\^|\*\*)-?\d(?:\.5)?)?"
+_FACTOR = rf"\(?(?:1|%|[A-Za-zµ]+){_POWER}(?:\){_POWER})?"
+_UNIT_TEXT = re.compile(rf"^(?:{_FACTOR}(?:(?:\s*[*/]\s*|\s+){_FACTOR})*)?$")
 
 
 class Quantity(float):
@@ -67,7 +69,7 @@ def unit_factor(unit: str) -> tuple[float, str]:
     Raises:
         ValueError: the text is no unit of `units.txt`.
     """
-    if not _UNIT_TEXT.match(unit):
+    if len(unit) > 40 or not _UNIT_TEXT.match(unit):
         raise ValueError(f"'{unit[:40]}' is no unit")
     try:
         parsed = registry().parse_units(unit)
@@ -147,7 +149,10 @@ class Unit:
 
     def _error(self, code: str, value: object) -> PydanticCustomError:
         word = {"unknown-unit": "unit is not known", "missing-unit": "unit is missing"}.get(code)
-        expected = f"must be a {self.name}" + (f" in units like {self.example}" if self.example else " without a unit")
+        article = "an" if self.name[0] in "aeiou" else "a"
+        expected = f"must be {article} {self.name}" + (
+            f" in units like {self.example}" if self.example else " without a unit"
+        )
         message = f"{word}; {expected}" if word else expected
         hint = f"write for example '1.0 {self.example}'" if self.example else "write a bare number, for example 1.0"
         return PydanticCustomError(code, "{message}", {"message": message, "got": repr_short(value), "hint": hint})

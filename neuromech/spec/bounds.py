@@ -6,11 +6,9 @@ from dataclasses import dataclass
 from typing import Self
 
 from neuromech.errors import Problem
-from neuromech.spec.model import Parameter
+from neuromech.spec.model import Parameter, Written
 from neuromech.spec.node import join
 from neuromech.units import measure, repr_short
-
-Written = str | int | float
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,7 +55,7 @@ def check_parameter(parameter: Parameter, path: str) -> Iterator[Problem]:
         message = f"must not be below the minimum, {bounds.least_text}"
         yield Problem("out-of-range", join(path, "maximum"), message, repr_short(parameter.maximum))
     else:
-        yield from _inside(parameter.value, bounds, join(path, "value"), "its")
+        yield from _inside(parameter.value, bounds, join(path, "value"), "")
 
 
 def check_value(value: Written, bounds: Bounds, name: str, path: str) -> Iterator[Problem]:
@@ -69,7 +67,7 @@ def check_value(value: Written, bounds: Bounds, name: str, path: str) -> Iterato
         message = f"must have the dimension of the parameter '{name}', '{bounds.unit}'"
         yield Problem("wrong-unit", path, message, repr_short(value))
     else:
-        yield from _inside(value, bounds, path, f"the parameter '{name}' has the")
+        yield from _inside(value, bounds, path, f" of the parameter '{name}'")
 
 
 def _readable(value: Written, path: str) -> Problem | None:
@@ -82,10 +80,10 @@ def _readable(value: Written, path: str) -> Problem | None:
     return None
 
 
-def _inside(value: Written, bounds: Bounds, path: str, whose: str) -> Iterator[Problem]:
+def _inside(value: Written, bounds: Bounds, path: str, owner: str) -> Iterator[Problem]:
     number, _ = measure(value)
     got = repr_short(value)
     if number < bounds.least:
-        yield Problem("out-of-range", path, f"is below {whose} minimum, {bounds.least_text}", got)
+        yield Problem("out-of-range", path, f"is below the minimum{owner}, {bounds.least_text}", got)
     elif number > bounds.most:
-        yield Problem("out-of-range", path, f"is above {whose} maximum, {bounds.most_text}", got)
+        yield Problem("out-of-range", path, f"is above the maximum{owner}, {bounds.most_text}", got)

@@ -4,9 +4,9 @@ from neuromech.errors import Problem
 from neuromech.units import Quantity
 
 
-def milliseconds(time: float) -> str:
-    """Return a time (s) as text."""
-    return f"{1e3 * time:.6g} ms"
+def time_text(time: float) -> str:
+    """Return a time (s) as text, in s or ms."""
+    return f"{time:.9g} s" if time >= 1.0 else f"{1e3 * time:.9g} ms"
 
 
 def whole_multiple(longer: Quantity, shorter: Quantity, path: str, name: str) -> Problem | None:
@@ -21,6 +21,6 @@ def whole_multiple(longer: Quantity, shorter: Quantity, path: str, name: str) ->
     ratio = longer / shorter
     if ratio > 0.5 and abs(ratio - round(ratio)) <= 1e-9 * ratio:
         return None
-    nearest = milliseconds(max(1, round(ratio)) * shorter)
-    message = f"must be a whole number of {name}, which is {milliseconds(shorter)}"
-    return Problem("clocks", path, message, milliseconds(longer), f"the nearest is {nearest}")
+    nearest = time_text(max(1, round(ratio)) * shorter)
+    message = f"must be a whole number of {name}, which is {time_text(shorter)}"
+    return Problem("clocks", path, message, time_text(longer), f"the nearest is {nearest}")

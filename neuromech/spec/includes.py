@@ -87,5 +87,5 @@ class _Composer:
 def _neighbours(target: Path) -> str | None:
     if not target.parent.is_dir():
         return f"there is no folder {target.parent}"
-    names = [file.name for file in target.parent.glob("*.yaml")]
-    return did_you_mean(target.name, names) if names else None
+    hint = did_you_mean(target.name, (file.name for file in target.parent.glob("*.yaml")))
+    return hint if hint.startswith("did you mean") else None

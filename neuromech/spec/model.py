@@ -7,7 +7,7 @@ scope's name, a dot, and its own (`LF.RG-F`). A reference is looked up in its ow
 from collections.abc import Mapping
 from typing import Annotated, Literal
 
-from pydantic import Field, StringConstraints, field_validator
+from pydantic import Field, StrictFloat, StrictInt, StringConstraints, field_validator
 
 from neuromech.components.base import Drive, Muscle, Neuron, Sensor, SpecModel, Synapse
 from neuromech.spec.fields import KindFromKey, OfCatalogue
@@ -33,15 +33,16 @@ from neuromech.units import (
 NAME_PATTERN = r"^[A-Za-z][A-Za-z0-9_+-]*$"
 Name = Annotated[str, StringConstraints(pattern=NAME_PATTERN)]
 Vector = tuple[Length, Length, Length]
+Written = str | StrictInt | StrictFloat
 PositiveTime = Annotated[Quantity, TIME.positive]
 
 
 class Parameter(SpecModel):
     """A named, bounded knob. `value`, `minimum` and `maximum` keep the author's text: its users check the unit."""
 
-    value: str | int | float
-    minimum: str | int | float | None = None
-    maximum: str | int | float | None = None
+    value: Written
+    minimum: Written | None = None
+    maximum: Written | None = None
     description: str = ""
     source: str = ""
 
@@ -212,7 +213,7 @@ class Solver(SpecModel):
 class Uniform(SpecModel):
     """A uniform distribution over an interval; the unit is that of the state."""
 
-    uniform: tuple[str | int | float, str | int | float]
+    uniform: tuple[Written, Written]
 
 
 class Ramp(SpecModel):
@@ -221,14 +222,14 @@ class Ramp(SpecModel):
     parameter: str
     start: Annotated[Quantity, TIME.non_negative]
     end: PositiveTime
-    to: str | int | float
+    to: Written
 
 
 class Event(SpecModel):
     """Parameters jump to new values at a time."""
 
     at: Annotated[Quantity, TIME.non_negative]
-    set: dict[str, str | int | float] = Field(min_length=1)
+    set: dict[str, Written] = Field(min_length=1)
 
 
 class Fall(SpecModel):
@@ -242,8 +243,8 @@ class Protocol(SpecModel):
     """What happens in time. `initial` sets states by name pattern at time zero: a value, or a distribution."""
 
     duration: PositiveTime
-    seed: Annotated[int, Field(ge=0)] = 0
-    initial: dict[str, str | int | float | Uniform] = {}
+    seed: Annotated[int, Field(ge=0, strict=True)] = 0
+    initial: dict[str, Written | Uniform] = {}
     ramps: dict[Name, Ramp] = {}
     events: dict[Name, Event] = {}
     fall: Fall | None = None
@@ -259,10 +260,10 @@ class RecordGroup(SpecModel):
 class Expected(SpecModel):
     """What a measured value must satisfy: `value` with `within`, or bounds. Text keeps the unit of the measure."""
 
-    value: str | int | float | None = None
-    within: str | int | float | None = None
-    at_least: str | int | float | None = None
-    at_most: str | int | float | None = None
+    value: Written | None = None
+    within: Written | None = None
+    at_least: Written | None = None
+    at_most: Written | None = None
     equals: str | None = None
 
 
@@ -279,9 +280,9 @@ class Measure(SpecModel):
     reference: str | None = None
     after: Annotated[Quantity, TIME.non_negative] = quantity("0 s")
     until: PositiveTime | None = None
-    level: str | int | float | None = None
-    least_amplitude: str | int | float | None = None
-    tolerance: str | int | float | None = None
+    level: Written | None = None
+    least_amplitude: Written | None = None
+    tolerance: Written | None = None
     event: Literal["onset", "center"] = "onset"
 
 
@@ -295,12 +296,12 @@ class Claim(SpecModel):
     claim: str
     measure: Measure
     expected: Expected
-    published: str | int | float | None = None
+    published: Written | None = None
     source: str
-    set: dict[str, str | int | float | bool] = {}
-    seeds: Annotated[int, Field(ge=1)] = 1
-    sweep: dict[str, list[str | int | float]] = {}
-    compare: dict[str, str | int | float | bool] = {}
+    set: dict[str, Written | bool] = {}
+    seeds: Annotated[int, Field(ge=1, strict=True)] = 1
+    sweep: dict[str, list[Written]] = {}
+    compare: dict[str, Written | bool] = {}
     compare_with: str | None = None
 
 

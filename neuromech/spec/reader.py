@@ -11,7 +11,7 @@ from neuromech.spec.builder import TreeBuilder
 from neuromech.spec.node import MapNode, Node
 
 MAXIMAL_BYTES = 2_000_000
-_ARTICLES = {"block mapping": "map", "flow mapping": "map", "block sequence": "list", "flow sequence": "list"}
+_KINDS = {"block mapping": "map", "flow mapping": "map", "block sequence": "list", "flow sequence": "list"}
 
 
 def read(path: Path) -> MapNode:
@@ -121,14 +121,25 @@ def _syntax(error: MarkedYAMLError, file: str, text: str) -> Problem:
     at = error.problem_mark or error.context_mark
     mark = Mark(file, at.line + 1, at.column + 1) if at else Mark(file, 1, 1)
     message = str(error.problem or error.context or "not understood").strip()
-    hint = None
     lines = text.splitlines()
     line = lines[mark.line - 1] if mark.line <= len(lines) else ""
+    began = _began(error)
+    hint = f"the {began}" if began else None
     if "'\\t'" in message or "\t" in line[: mark.column]:
         message, hint = "a tab is not allowed here", "indent with spaces"
     elif "${" in line and any(bracket in line.split("${")[0] for bracket in "[{"):
         hint = "inside [ ] or { } put ${…} between quotes"
-    elif error.context and error.context_mark and error.problem_mark and error.context.startswith("while parsing a"):
-        word = error.context.removeprefix("while parsing a ").strip()
-        hint = f"the {_ARTICLES.get(word, word)} begins on line {error.context_mark.line + 1}"
+    elif "<block end>" in message:
+        message = f"the indentation does not fit the {began}" if began else "the indentation does not fit"
+        hint = None
+    elif "mapping values" in message:
+        message, hint = "a second ':' on this line", "put text that holds ': ' between quotes"
     return Problem("syntax", "", f"is not YAML: {message}", None, hint, mark)
+
+
+def _began(error: MarkedYAMLError) -> str | None:
+    context = str(error.context or "")
+    if not context.startswith("while parsing a ") or not error.context_mark or not error.problem_mark:
+        return None
+    word = context.removeprefix("while parsing a ").strip()
+    return f"{_KINDS.get(word, word)} that begins on line {error.context_mark.line + 1}"

@@ -6,7 +6,7 @@ from typing import Self
 
 from neuromech.errors import Problem, did_you_mean
 from neuromech.spec.bounds import Bounds, check_parameter, check_value
-from neuromech.spec.clocks import milliseconds, whole_multiple
+from neuromech.spec.clocks import time_text, whole_multiple
 from neuromech.spec.model import Claim, Experiment, Parameter, Protocol, RecordGroup, Solver
 from neuromech.spec.node import join
 
@@ -68,8 +68,8 @@ def _ramps(protocol: Protocol, parameters: Mapping[str, Parameter] | None) -> It
     for name, ramp in protocol.ramps.items():
         path = f"protocol.ramps.{name}"
         if ramp.end <= ramp.start:
-            message = f"must be later than the start, {milliseconds(ramp.start)}"
-            yield Problem("protocol-time", join(path, "end"), message, milliseconds(ramp.end))
+            message = f"must be later than the start, {time_text(ramp.start)}"
+            yield Problem("protocol-time", join(path, "end"), message, time_text(ramp.end))
         yield from _in_time(ramp.end, protocol, join(path, "end"))
         if parameters is not None:
             yield from _target(ramp.parameter, ramp.to, parameters, join(path, "parameter"), join(path, "to"))
@@ -88,8 +88,8 @@ def _events(protocol: Protocol, parameters: Mapping[str, Parameter] | None) -> I
 
 def _in_time(time: float, protocol: Protocol, path: str) -> Iterator[Problem]:
     if time > protocol.duration:
-        message = f"is later than the end of the protocol, {milliseconds(protocol.duration)}"
-        yield Problem("protocol-time", path, message, milliseconds(time))
+        message = f"is later than the end of the protocol, {time_text(protocol.duration)}"
+        yield Problem("protocol-time", path, message, time_text(time))
 
 
 def _target(

@@ -1,11 +1,25 @@
 """`${name}`: a module's arguments and a document's parameters put where they are asked for."""
 
+import math
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
-from neuromech.errors import Problem, did_you_mean
-from neuromech.spec.node import Entry, ListNode, MapNode, Node, Origin, ScalarNode, is_missing, join, kind_of, walk
+from neuromech.errors import Mark, Problem, did_you_mean
+from neuromech.spec.node import (
+    MISSING,
+    Entry,
+    ListNode,
+    MapNode,
+    Node,
+    Origin,
+    ScalarNode,
+    is_missing,
+    join,
+    kind_of,
+    walk,
+)
+from neuromech.units import measure
 
 REFERENCE = re.compile(r"\$\{([^{}]*)\}")
 MAXIMAL_TEXT = 10_000
@@ -34,7 +48,9 @@ def fill_arguments(node: Node, arguments: Mapping[str, Node], problems: list[Pro
         return replace(node, items=tuple(items))
     entries: dict[str, Entry] = {}
     for key, entry in node.entries.items():
-        name = key if "${" not in key else _text(ScalarNode(key, True, entry.mark), arguments, problems, path)
+        name = _text(key, entry.mark, arguments, problems, path)
+        if name is None:
+            continue
         if name in entries:
             message = f"the key '{name}' stands twice in this map after its arguments were put in"
             problems.append(Problem("duplicate-key", join(path, name), message, key, None, entry.mark))
@@ -65,7 +81,8 @@ def _fill_scalar(node: ScalarNode, arguments: Mapping[str, Node], problems: list
         return node
     whole = REFERENCE.fullmatch(node.text)
     if whole is None:
-        return replace(node, text=_text(node, arguments, problems, path), quoted=True, origins=_asked(node))
+        text = _text(node.text, node.mark, arguments, problems, path)
+        return MISSING if text is None else replace(node, text=text, quoted=True, origins=_asked(node))
     argument = arguments.get(whole[1])
     if argument is None:
         return node
@@ -76,22 +93,25 @@ def _asked(node: ScalarNode) -> tuple[Origin, ...]:
     return (*node.origins, Origin("argument", node.text, node.mark))
 
 
-def _text(node: ScalarNode, arguments: Mapping[str, Node], problems: list[Problem], path: str) -> str:
-    def value(match: re.Match[str]) -> str:
-        argument = arguments.get(match[1])
-        if isinstance(argument, ScalarNode):
-            return argument.text
-        if argument is not None:
-            message = f"'${{{match[1]}}}' stands inside a text, so the argument must be a single value"
-            problems.append(Problem("argument", path, message, kind_of(argument), None, node.mark))
-        return match[0]
-
-    text = REFERENCE.sub(value, node.text)
-    if len(text) > MAXIMAL_TEXT:
+def _text(
+    text: str, mark: Mark | None, arguments: Mapping[str, Node], problems: list[Problem], path: str
+) -> str | None:
+    """Return a text with arguments put in, or None where one of them is missing or is no scalar."""
+    for name in REFERENCE.findall(text):
+        argument = arguments.get(name)
+        if argument is not None and is_missing(argument):
+            return None
+        if isinstance(argument, MapNode | ListNode):
+            message = f"'${{{name}}}' stands inside a text, so the argument must be a single value"
+            problems.append(Problem("argument", path, message, kind_of(argument), None, mark))
+            return None
+    words = {name: node.text for name, node in arguments.items() if isinstance(node, ScalarNode)}
+    filled = REFERENCE.sub(lambda match: words.get(match[1], match[0]), text)
+    if len(filled) > MAXIMAL_TEXT:
         message = f"becomes longer than {MAXIMAL_TEXT} characters"
-        problems.append(Problem("too-long", path, message, None, None, node.mark))
-        return text[:MAXIMAL_TEXT]
-    return text
+        problems.append(Problem("too-long", path, message, None, None, mark))
+        return None
+    return filled
 
 
 class _Parameters:
@@ -131,7 +151,15 @@ class _Parameters:
     def _bound(self, node: ScalarNode, name: str) -> Node:
         parameter = self._parameters.entries[name].node
         value = parameter.get("value") if isinstance(parameter, MapNode) else None
-        if not isinstance(value, ScalarNode):
+        if not isinstance(value, ScalarNode) or not _readable(value):
             return node
         origins = (*value.origins, Origin("parameter", value.text, value.mark), *node.origins)
         return replace(node, text=value.text, quoted=value.quoted, parameter=name, origins=origins)
+
+
+def _readable(value: ScalarNode) -> bool:
+    """Tell whether a parameter's value is a finite quantity; where it is not, that is reported once, there."""
+    try:
+        return math.isfinite(measure(value.text)[0])
+    except ValueError:
+        return False

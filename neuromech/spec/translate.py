@@ -207,7 +207,8 @@ def expected(shape: Shape) -> str:
     words = dict.fromkeys(_TYPE_WORDS.get(kind, "a map") for kind in shape.types)
     if "a number" in words:
         words.pop("a whole number", None)
-    return " or ".join(words)
+    *others, last = words
+    return f"{', '.join(others)} or {last}" if others else last
 
 
 def _type_hint(shape: Shape, node: Node) -> str | None:
