@@ -1,0 +1,109 @@
+"""Joint angles over time, and their phase planes as in Habu 2020 Fig. 3-3."""
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
+from matplotlib.collections import LineCollection
+from matplotlib.colors import Normalize
+from matplotlib.figure import Figure
+
+from neuromech.analyse.measures import measure
+from neuromech.report.layout import (
+    TIME_COLORS,
+    Trace,
+    axis_label,
+    by_scope,
+    grid,
+    in_shown_unit,
+    recent,
+    title,
+    trace,
+)
+from neuromech.simulate.recording import Recording
+from neuromech.spec.model import Measure
+from neuromech.units import Quantity
+
+MOST_POINTS = 6000
+"""Number of samples beyond which a phase plane leaves some out."""
+
+
+def joint_angle_figure(recording: Recording) -> Figure | None:
+    """Return joint angles, one row per leg: the whole run, and the last few cycles; None where none was recorded.
+
+    Dashed lines show the centre of oscillation over the last few cycles, as in Habu 2020 Fig. 3-1.
+    """
+    scopes = by_scope(recording, "angle")
+    if not scopes:
+        return None
+    options = {"sharex": "col", "sharey": True, "width_ratios": [2.2, 1.0]}
+    figure, axes = grid(len(scopes), 2, 4.6, 1.75, **options)
+    start, end = recent(recording)
+    for (whole, late), (scope, names) in zip(axes, scopes.items(), strict=True):
+        for name in names:
+            _angle(whole, late, recording, name, start)
+        whole.set_title(title(recording, scope), loc="left")
+        whole.set_ylabel(axis_label("angle", trace(recording, names[0]).unit))
+        late.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
+    for bottom in axes[-1]:
+        bottom.set_xlabel("time (s)")
+    axes[-1][0].set_xlim(0.0, max(end, recording.outcome.time))
+    axes[-1][1].set_xlim(start, end)
+    return figure
+
+
+def _angle(whole: Axes, late: Axes, recording: Recording, name: str, start: float) -> None:
+    one = trace(recording, name)
+    (line,) = whole.plot(one.time, one.values, linewidth=0.8)
+    center = measure(recording, Measure(kind="center", signal=name, after=Quantity(start))).value
+    label = one.element
+    if not isinstance(center, str):
+        shown = in_shown_unit(center, recording.unit(name))
+        whole.axhline(shown, color=line.get_color(), linestyle="--", linewidth=0.7)
+        label = f"{one.element}, centre {shown:.0f} {one.unit}"
+    late.plot(one.time, one.values, color=line.get_color(), label=label)
+
+
+def phase_plane_figure(recording: Recording) -> Figure | None:
+    """Return joint velocity against joint angle, coloured by time, one row per leg and one panel per joint.
+
+    None where no joint was recorded with both angle and velocity.
+    """
+    scopes = _joints_with_velocity(recording)
+    if not scopes:
+        return None
+    columns = max(len(joints) for joints in scopes.values())
+    figure, axes = grid(len(scopes), columns, 2.4, 1.95)
+    normalize = Normalize(0.0, max(recording.outcome.time, recent(recording)[1]))
+    for row, (scope, joints) in zip(axes, scopes.items(), strict=True):
+        for unused in row[len(joints) :]:
+            unused.remove()
+        for one, joint in zip(row, joints, strict=False):
+            angle, velocity = trace(recording, f"{joint}.angle"), trace(recording, f"{joint}.velocity")
+            _path(one, angle, velocity, normalize)
+            one.set_title(f"{title(recording, scope)}  {angle.element}" if scope else angle.element, loc="left")
+            one.set_xlabel(axis_label("angle", angle.unit))
+        row[0].set_ylabel(axis_label("velocity", velocity.unit))
+    colors = ScalarMappable(normalize, TIME_COLORS)
+    figure.colorbar(colors, ax=figure.axes, label="time (s)", shrink=0.6, aspect=30, pad=0.02)
+    return figure
+
+
+def _joints_with_velocity(recording: Recording) -> dict[str, list[str]]:
+    velocities = set(recording.match("*.velocity"))
+    found = {}
+    for scope, names in by_scope(recording, "angle").items():
+        joints = [name.removesuffix(".angle") for name in names]
+        moving = [joint for joint in joints if f"{joint}.velocity" in velocities]
+        if moving:
+            found[scope] = moving
+    return found
+
+
+def _path(axes: Axes, angle: Trace, velocity: Trace, normalize: Normalize) -> None:
+    """Draw the path coloured by time."""
+    other = np.interp(angle.time, velocity.time, velocity.values)
+    points = np.column_stack((angle.values, other))[:: 1 + len(angle.time) // MOST_POINTS]
+    segments = np.stack((points[:-1], points[1:]), axis=1)
+    times = np.linspace(angle.time[0], angle.time[-1], len(segments))
+    axes.add_collection(LineCollection(list(segments), array=times, cmap=TIME_COLORS, norm=normalize, linewidths=0.7))
+    axes.autoscale()
