@@ -1,9 +1,11 @@
 """Everything that a document declares, scope by scope, as elements whose references are still as written."""
 
 from collections.abc import Iterator, Mapping
+from pathlib import Path
 
 from neuromech.components.base import Component
 from neuromech.errors import Problem
+from neuromech.graph.body_file import read_body_file
 from neuromech.graph.model import Element, NodeFamily
 from neuromech.graph.names import qualified
 from neuromech.spec.document import Document
@@ -33,6 +35,10 @@ def declared(document: Document) -> tuple[list[Element], list[Problem]]:
         body = content.body if isinstance(content, Experiment | Instance) else None
         if body is not None:
             elements += _of_body(scope, qualified(path, "body"), body)
+    try:
+        elements += _of_body_file(document)
+    except ValueError as error:
+        problems.append(document.problem("body-file", "body.file", str(error)))
     return elements, problems
 
 
@@ -55,6 +61,23 @@ def _of_map(
 ) -> Iterator[Element]:
     for name, spec in specs.items():
         yield Element(qualified(scope, name), family, spec, f"{path}.{name}", scope)
+
+
+def body_file(document: Document) -> Path | None:
+    """Return the file that segments and joints come from; it stands relative to the document that names it."""
+    body = document.experiment.body
+    if body is None or body.file is None:
+        return None
+    mark = document.mark("body.file")
+    return (Path(mark.file) if mark else document.file).parent / body.file
+
+
+def _of_body_file(document: Document) -> Iterator[Element]:
+    file = body_file(document)
+    if file is None:
+        return
+    segments, joints, contacts = read_body_file(file)
+    yield from _of_body("", "body.file", BodyParts(segments=segments, joints=joints, contacts=contacts))
 
 
 def two_definitions(document: Document, elements: list[Element]) -> Iterator[Problem]:
