@@ -70,7 +70,7 @@ class KindFromKey:
 
 
 def _error(code: str, message: str, got: str | None, hint: str | None) -> PydanticCustomError:
-    return PydanticCustomError(code, "{message}", {"message": message, "got": got, "hint": hint})  # type: ignore[arg-type]
+    return PydanticCustomError(code, "{message}", {"message": message, "got": got, "hint": hint})
 
 
 def _dump(component: Component) -> dict[str, Any]:

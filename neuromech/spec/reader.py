@@ -124,7 +124,7 @@ def _syntax(error: MarkedYAMLError, file: str, text: str) -> Problem:
     lines = text.splitlines()
     line = lines[mark.line - 1] if mark.line <= len(lines) else ""
     began = _began(error)
-    hint = f"the {began}" if began else None
+    hint = f"see the {began}" if began else None
     if "'\\t'" in message or "\t" in line[: mark.column]:
         message, hint = "a tab is not allowed here", "indent with spaces"
     elif "${" in line and any(bracket in line.split("${")[0] for bracket in "[{"):

@@ -1,0 +1,18 @@
+"""What the whole library has to say about one document, as the text that a person reads."""
+
+from pathlib import Path
+
+from neuromech.components.catalogue import Catalogue
+from neuromech.errors import DocumentError
+from neuromech.graph.build import build
+from neuromech.graph.check import check
+from neuromech.spec.load import load
+
+
+def diagnose(path: Path) -> str:
+    """Return every problem of a document on a line of its own; empty for a good document."""
+    try:
+        check(build(load(path, catalogue=Catalogue.built_in())))
+    except DocumentError as error:
+        return "".join(f"{problem}\n" for problem in error.problems)
+    return ""
