@@ -56,7 +56,7 @@ def mass_matrix(
             work[topology[i, PARENT], k] += work[i, k]
     for i in range(1, count):
         _joint_motion(topology, geometry, rotation, position, i, work[i])
-    inertia[:, :] = 0.0
+    _clear(inertia, inertia.shape[0])
     for i in range(1, count):
         _joint_row(topology, geometry, i, work, inertia)
     if root != FIXED_ROOT:
@@ -64,52 +64,51 @@ def mass_matrix(
 
 
 @compiled
+def _clear(matrix: Floats, size: int) -> None:
+    for i in range(size):
+        for j in range(size):
+            matrix[i, j] = 0.0
+
+
+@compiled
 def _segment_inertia(geometry: Floats, rotation: Floats, position: Floats, i: int, row: Floats) -> None:
     mass = geometry[i, MASS]
-    a = geometry[i, INERTIA]
-    b = geometry[i, INERTIA + 1]
-    c = geometry[i, INERTIA + 2]
-    r = rotation[i]
-    x = _center(geometry, rotation, position, i, 0)
-    y = _center(geometry, rotation, position, i, 1)
-    z = _center(geometry, rotation, position, i, 2)
+    for k in range(_SECOND + 6):
+        row[k] = 0.0
+    for k in range(3):
+        center = position[i, k] - position[0, k]
+        for axis in range(3):
+            center += rotation[i, k, axis] * geometry[i, CENTER + axis]
+        row[_MOMENT + k] = mass * center
+        _add_moment(row, geometry[i, INERTIA + k], rotation[i, 0, k], rotation[i, 1, k], rotation[i, 2, k])
     row[0] = mass
-    row[_MOMENT] = mass * x
-    row[_MOMENT + 1] = mass * y
-    row[_MOMENT + 2] = mass * z
-    row[_SECOND] = _turned(r, a, b, c, 0, 0) + mass * (y * y + z * z)
-    row[_SECOND + 1] = _turned(r, a, b, c, 1, 1) + mass * (x * x + z * z)
-    row[_SECOND + 2] = _turned(r, a, b, c, 2, 2) + mass * (x * x + y * y)
-    row[_SECOND + 3] = _turned(r, a, b, c, 0, 1) - mass * x * y
-    row[_SECOND + 4] = _turned(r, a, b, c, 0, 2) - mass * x * z
-    row[_SECOND + 5] = _turned(r, a, b, c, 1, 2) - mass * y * z
+    x = row[_MOMENT] / mass
+    y = row[_MOMENT + 1] / mass
+    z = row[_MOMENT + 2] / mass
+    for k in range(3):
+        row[_SECOND + k] += mass * (x * x + y * y + z * z)
+    _add_moment(row, -mass, x, y, z)
 
 
 @compiled
-def _center(geometry: Floats, rotation: Floats, position: Floats, i: int, k: int) -> float:
-    component: float = (
-        position[i, k]
-        - position[0, k]
-        + rotation[i, k, 0] * geometry[i, CENTER]
-        + rotation[i, k, 1] * geometry[i, CENTER + 1]
-        + rotation[i, k, 2] * geometry[i, CENTER + 2]
-    )
-    return component
-
-
-@compiled
-def _turned(r: Floats, a: float, b: float, c: float, j: int, k: int) -> float:
-    component: float = r[j, 0] * a * r[k, 0] + r[j, 1] * b * r[k, 1] + r[j, 2] * c * r[k, 2]
-    return component
+def _add_moment(row: Floats, moment: float, x: float, y: float, z: float) -> None:
+    row[_SECOND] += moment * x * x
+    row[_SECOND + 1] += moment * y * y
+    row[_SECOND + 2] += moment * z * z
+    row[_SECOND + 3] += moment * x * y
+    row[_SECOND + 4] += moment * x * z
+    row[_SECOND + 5] += moment * y * z
 
 
 @compiled
 def _joint_motion(
     topology: Integers, geometry: Floats, rotation: Floats, position: Floats, i: int, row: Floats
 ) -> None:
-    a = world_axis(geometry, rotation, i, 0)
-    b = world_axis(geometry, rotation, i, 1)
-    c = world_axis(geometry, rotation, i, 2)
+    for k in range(3):
+        row[_MOTION + 3 + k] = world_axis(geometry, rotation, i, k)
+    a = row[_MOTION + 3]
+    b = row[_MOTION + 4]
+    c = row[_MOTION + 5]
     if topology[i, KIND] == HINGE:
         x = position[i, 0] - position[0, 0]
         y = position[i, 1] - position[0, 1]
@@ -187,7 +186,7 @@ def _eliminate_root(topology: Integers, root: int, work: Floats, inertia: Floats
 
 @compiled
 def _root_inertia(row: Floats, factor: Floats) -> None:
-    factor[:, :6] = 0.0
+    _clear(factor, 6)
     m, hx, hy, hz = row[0], row[1], row[2], row[3]
     factor[0, 0], factor[1, 1], factor[2, 2] = row[4], row[5], row[6]
     factor[1, 0] = row[7]
@@ -206,7 +205,7 @@ def _root_inertia(row: Floats, factor: Floats) -> None:
 def _keep_planar(work: Floats, count: int, factor: Floats) -> None:
     # Rows and columns of rotation about y and motion along x and z move to the front.
     yy, xy, zy, m = factor[1, 1], factor[3, 1], factor[5, 1], factor[3, 3]
-    factor[:3, :3] = 0.0
+    _clear(factor, 3)
     factor[0, 0] = yy
     factor[1, 0] = xy
     factor[2, 0] = zy

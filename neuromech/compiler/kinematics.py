@@ -30,7 +30,7 @@ def forward_kinematics(
         if topology[i, KIND] == HINGE:
             _turn(rotation[parent], geometry[i, AXIS], geometry[i, AXIS + 1], geometry[i, AXIS + 2], angle, rotation[i])
         else:
-            rotation[i] = rotation[parent]
+            _turn(rotation[parent], 1.0, 0.0, 0.0, 0.0, rotation[i])
             shift = angle
         x = geometry[i, POSITION] + shift * geometry[i, AXIS]
         y = geometry[i, POSITION + 1] + shift * geometry[i, AXIS + 1]
