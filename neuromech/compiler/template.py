@@ -319,7 +319,7 @@ def advance(number, dt, x, s, u, p, F, I):
     """Advance the network over body step `number`, sensors held; return the position of a bad state or −1."""
     steps = <substeps>
     for step in range(number * steps, (number + 1) * steps):
-        network_step(step, dt, x, s, u, p, F, I)
+        network_step(step, dt / steps, x, s, u, p, F, I)
     return first_bad(x)
 '''
 

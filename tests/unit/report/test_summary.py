@@ -1,11 +1,13 @@
-"""Tables say what happened, and show claims that are not met."""
+"""The summary says what was measured, and in words where there was nothing to measure."""
 
+import json
 from io import StringIO
 
+import numpy as np
+import pytest
 from rich.console import Console
 
-from neuromech.analyse.claims import Measured, Verdict
-from neuromech.report.summary import claims_table, measured_text, run_table
+from neuromech.report.summary import metrics, summary_table
 from neuromech.simulate.recording import Outcome
 
 
@@ -15,35 +17,22 @@ def printed(table):
     return console.export_text()
 
 
-def verdict(word, published=None):
-    measured = Measured(0.45712, 0.4569, 0.4573, 20)
-    return Verdict("cat [CPG]", "period", "the period", "Habu 2020", published, "0.457 s ± 1 %", measured, word)
+def test_metrics_are_periods_centers_and_amplitudes_in_si_units(cat):
+    found = json.loads(json.dumps(metrics(cat())))
+    assert list(found) == ["period", "center", "amplitude"]
+    assert list(found["period"]) == [f"{leg}.RG-F.activity" for leg in ("LF", "RF", "LH", "RH")]
+    assert found["period"]["LH.RG-F.activity"] == {"value": pytest.approx(0.457, abs=1e-5), "unit": "s"}
+    assert found["center"]["LH.hip.angle"] == {"value": pytest.approx(np.deg2rad(70.0), abs=0.01), "unit": "rad"}
 
 
-def test_the_table_of_claims_counts_and_keeps_those_not_met():
-    text = printed(claims_table([verdict("met", "0.46 s"), verdict("not met")]))
-    assert "1 of 2 claims met" in text
-    assert text.count("not met") == 1
-    for word in (
-        "cat [CPG]: period",
-        "the period",
-        "Habu 2020",
-        "0.46 s",
-        "0.457 s ± 1 %",
-        "0.4571 (0.4569 … 0.4573), n = 20",
-    ):
+def test_metrics_of_a_silent_network_are_words(record):
+    found = metrics(record({"A.activity": ("", np.zeros(1000))}))
+    assert found == {"period": {"A.activity": {"value": "no rhythm", "unit": "s"}}}
+
+
+def test_the_table_shows_degrees_and_what_ended_a_run(cat):
+    text = printed(summary_table(cat()))
+    for word in ("suspended cat", "pybullet", "12 s in 24.00 s", "0.50", "period of LF.RG-F", "0.457 s", "70.08 deg"):
         assert word in text
-
-
-def test_measured_values_in_short():
-    assert measured_text(Measured(0.45712, 0.45712, 0.45712, 1)) == "0.4571"
-    assert measured_text(Measured("trot", "trot", "trot", 20)) == "trot, n = 20"
-    assert measured_text(Measured("trot", "pace", "trot", 20)) == "trot (pace … trot), n = 20"
-    assert measured_text(Measured("no rhythm in 1 of 3", 0.4, 0.5, 3)) == "no rhythm in 1 of 3 (0.4 … 0.5), n = 3"
-
-
-def test_the_table_of_a_run_names_what_ended_it(cat):
-    text = printed(run_table(cat(seconds=1.0, outcome=Outcome("diverged", 0.9, "LF.[RG-F].potential is not finite"))))
-    assert "diverged at 0.9 s: LF.[RG-F].potential is not finite" in text
-    assert "pybullet" in text
-    assert "suspended cat" in text
+    ended = printed(summary_table(cat(seconds=2.0, outcome=Outcome("diverged", 1.9, "LF.[RG-F].potential"))))
+    assert "the run diverged at 1.9 s" in ended
