@@ -11,8 +11,6 @@ from neuromech.simulate.recording import Recording
 from neuromech.spec.model import Measure
 from neuromech.units import Quantity
 
-_MOST_ROWS = 12
-
 
 def summary_table(recording: Recording) -> Table:
     """Return where a recording comes from and what it shows, one line per fact."""
@@ -26,8 +24,8 @@ def summary_table(recording: Recording) -> Table:
     table.add_row("engine", Text(origin.engine))
     table.add_row("seed", str(origin.seed))
     for kind, found in _measured(recording).items():
-        for name, value in list(found.items())[:_MOST_ROWS]:
-            table.add_row(f"{kind} of {name.rpartition('.')[0]}", Text(_text(value)))
+        for scope, values in _by_scope(found).items():
+            table.add_row(f"{kind} {scope}".rstrip(), Text(", ".join(values)))
     return table
 
 
@@ -52,6 +50,15 @@ def _measured(recording: Recording) -> dict[str, dict[str, MeasuredValue]]:
         for kind, names in (("period", first_neurons), ("center", angles), ("amplitude", angles))
         if names
     }
+
+
+def _by_scope(found: dict[str, MeasuredValue]) -> dict[str, list[str]]:
+    """Return {scope: texts like `hip 70 deg`}."""
+    texts: dict[str, list[str]] = {}
+    for name, value in found.items():
+        *scope, element, _ = name.split(".")
+        texts.setdefault(".".join(scope), []).append(f"{element} {_text(value)}")
+    return texts
 
 
 def _text(value: MeasuredValue) -> str:

@@ -32,7 +32,7 @@ def test_metrics_of_a_silent_network_are_words(record):
 
 def test_the_table_shows_degrees_and_what_ended_a_run(cat):
     text = printed(summary_table(cat()))
-    for word in ("suspended cat", "pybullet", "12 s in 24.00 s", "0.50", "period of LF.RG-F", "0.457 s", "70.08 deg"):
+    for word in ("suspended cat", "pybullet", "12 s in 24.00 s", "0.50", "RG-F 0.457 s", "hip 70 deg, knee 110 deg"):
         assert word in text
     ended = printed(summary_table(cat(seconds=2.0, outcome=Outcome("diverged", 1.9, "LF.[RG-F].potential"))))
     assert "the run diverged at 1.9 s" in ended
