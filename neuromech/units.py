@@ -20,8 +20,10 @@ NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
 _TEXT = re.compile(rf"^\s*({NUMBER})\s*(.*?)\s*$")
 _NOT_FINITE = re.compile(r"^\s*[-+]?\.?(nan|inf(inity)?)\b", re.IGNORECASE)
 _POWER = r"(?:(?:\^|\*\*)-?\d(?:\.5)?)?"
-_FACTOR = rf"\(?(?:1|%|[A-Za-zµ]+){_POWER}(?:\){_POWER})?"
-_UNIT_TEXT = re.compile(rf"^(?:{_FACTOR}(?:(?:\s*[*/]\s*|\s+){_FACTOR})*)?$")
+_BETWEEN = r"(?:\s*[*/]\s*|\s+)"
+_WORD = rf"(?:1|%|[A-Za-zµ]+){_POWER}"
+_FACTOR = rf"(?:{_WORD}|\({_WORD}(?:{_BETWEEN}{_WORD})*\){_POWER})"
+_UNIT_TEXT = re.compile(rf"^(?:{_FACTOR}(?:{_BETWEEN}{_FACTOR})*)?$")
 
 
 class Quantity(float):
@@ -74,7 +76,8 @@ def unit_factor(unit: str) -> tuple[float, str]:
     try:
         parsed = registry().parse_units(unit)
         factor = float(registry().Quantity(1.0, parsed).to_base_units().magnitude)
-        return factor, str(registry().get_dimensionality(parsed))
+        dimensions = sorted(registry().get_dimensionality(parsed).items())
+        return factor, " ".join(f"{name}^{power:g}" for name, power in dimensions)
     except (pint.PintError, ArithmeticError, SyntaxError, TypeError, AttributeError) as error:
         raise ValueError(f"'{unit}' is no unit that is known here") from error
 

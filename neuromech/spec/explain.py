@@ -15,7 +15,7 @@ from neuromech.spec.node import ListNode, MapNode, Node, Origin, ScalarNode, joi
 from neuromech.spec.overrides import split_path
 from neuromech.spec.positions import Positions
 from neuromech.spec.resolve import resolve
-from neuromech.spec.shape import Leaf, field_annotation, model_of, shape_of, step
+from neuromech.spec.shape import Leaf, field_annotation, model_of, narrowed, shape_of, step
 from neuromech.units import measure
 
 
@@ -81,7 +81,7 @@ def _child(node: Node, key: str) -> Node | None:
 
 
 def _written(path: str, node: Node, annotation: Any, positions: Positions, catalogue: Catalogue) -> Explanation:
-    shape = shape_of(annotation, catalogue) if annotation is not None else None
+    shape = shape_of(narrowed(annotation, node, catalogue), catalogue) if annotation is not None else None
     mark = positions.values.get(path)
     if not isinstance(node, ScalarNode):
         return Explanation(path, short_text(node, 200), mark, history=node.origins)
