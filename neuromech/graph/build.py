@@ -25,6 +25,8 @@ def build(document: Document) -> ModelGraph:
         DocumentError: names that are defined twice or mean nothing, a body that is no tree; all of them at once.
     """
     written, problems = declared(document)
+    if problems:
+        raise DocumentError(problems)
     problems += two_definitions(document, written)
     resolver = Resolver(document, Names(written))
     elements = resolved(written, resolver)

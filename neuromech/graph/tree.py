@@ -48,7 +48,7 @@ def _tree_problems(
     document: Document, segments: Mapping[str, Element], joints: Mapping[str, Element]
 ) -> Iterator[Problem]:
     if not segments:
-        yield document.problem("no-segment", "body", "has no segment")
+        yield document.problem("no-segment", "body", "has no segment", hint="list its segments under 'segments'")
         return
     parent_joint: dict[str, str] = {}
     for name, element in joints.items():
@@ -79,7 +79,7 @@ def _cycle_problems(
     for cycle in nx.simple_cycles(links):
         first = cycle.index(min(cycle, key=segments.index))
         around = " → ".join([*cycle[first:], *cycle[: first + 1]])
-        path = joints[parent_joint[cycle[first]]].path
+        path = f"{joints[parent_joint[cycle[first]]].path}.parent"
         yield document.problem("body-cycle", path, "closes a cycle of segments, a body is a tree", around)
 
 

@@ -7,6 +7,7 @@ from neuromech.components.base import Path
 from neuromech.components.muscles import ConstantMomentArms, StraightLines
 from neuromech.errors import Problem
 from neuromech.graph.model import BodyModel, Element, ModelGraph
+from neuromech.graph.names import enclosing
 from neuromech.graph.tree import chain
 
 
@@ -19,7 +20,7 @@ def arms_and_angles_differ(graph: ModelGraph) -> Iterator[Problem]:
             has, lacks = "moment_arms", "reference_angles"
             if joint in way.reference_angles:
                 has, lacks = lacks, has
-            path = f"{element.path}.path.{has}"
+            path = _as_written(graph, element, has, joint)
             hint = f"{has} and {lacks} name the same joints"
             yield graph.document.problem("path-joints", path, f"names a joint that {lacks} lacks", f"'{joint}'", hint)
 
@@ -60,6 +61,13 @@ def path_turns_back(graph: ModelGraph) -> Iterator[Problem]:
                 hint = "list the points from origin to insertion along the chain of segments"
                 yield graph.document.problem("path-joints", path, message, f"'{end.segment}'", hint)
             crossed.update(joints)
+
+
+def _as_written(graph: ModelGraph, element: Element, field: str, joint: str) -> str:
+    """Return the document path of a joint's entry, whose key the author may have written as seen from any scope."""
+    path = f"{element.path}.path.{field}"
+    keys = [joint.removeprefix(f"{scope}.") for scope in enclosing(element.scope)]
+    return next((f"{path}.{key}" for key in keys if f"{path}.{key}" in graph.document.marks), path)
 
 
 def _paths(graph: ModelGraph) -> Iterator[tuple[Element, Path]]:

@@ -1,15 +1,18 @@
 """Laws of the graph: names resolve outwards, order doesn't matter, wrong names and wrong trees are told."""
 
 import copy
+from pathlib import Path
 
 import pytest
-from conftest import BRICK, RG, joint, synapse, to_document
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from legs import BRICK, RG, joint, synapse, to_document
 
+from neuromech.components.catalogue import Catalogue
 from neuromech.errors import DocumentError
 from neuromech.graph.build import build
 from neuromech.graph.tree import chain
+from neuromech.spec.load import load
 
 
 def problems(raw):
@@ -144,7 +147,7 @@ def test_a_segment_with_two_parents(raw):
 def test_a_cycle_of_segments(raw):
     raw["instances"]["LF"]["body"]["joints"]["hip"]["parent"] = "shank"
     assert problems(raw) == [
-        "instances.LF.body.joints.hip  closes a cycle of segments, a body is a tree "
+        "instances.LF.body.joints.hip.parent  closes a cycle of segments, a body is a tree "
         "(got LF.thigh → LF.shank → LF.thigh)."
     ]
 
@@ -178,3 +181,26 @@ def test_one_joint_under_two_spellings(raw):
     assert problems(raw) == [
         "instances.LF.muscles.flexor.path.moment_arms.LF.hip  gives a second value for joint 'LF.hip'."
     ]
+
+
+INERTIAL = "<inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial>"
+URDF = """<robot name="leg">
+  <link name="trunk">%s</link>
+  <link name="thigh">%s</link>
+  <joint name="hip" type="continuous">
+    <parent link="trunk"/><child link="thigh"/><axis xyz="0 1 0"/>
+  </joint>
+</robot>""" % (INERTIAL, INERTIAL)
+
+
+def test_a_body_file_stands_relative_to_the_document_that_names_it(tmp_path, monkeypatch):
+    (tmp_path / "specs").mkdir()
+    (tmp_path / "specs" / "leg.urdf").write_text(URDF)
+    lines = ["neuromech: 1", "name: leg", "body: {file: leg.urdf}", "protocol: {duration: 1 s}"]
+    lines += ["sensors: {bend: {kind: joint_sensor, joint: hip}}"]
+    (tmp_path / "specs" / "leg.yaml").write_text("\n".join(lines))
+    monkeypatch.chdir(tmp_path)
+    built = build(load(Path("specs/leg.yaml"), catalogue=Catalogue.built_in()))
+    assert built.body.root_segment == "trunk"
+    assert built.graph.has_edge("hip", "bend")
+    assert built.document.mark(built.element("hip").path).line == 3

@@ -3,7 +3,7 @@
 import json
 
 import pytest
-from conftest import RG, synapse, to_document
+from legs import RG, synapse, to_document
 
 from neuromech.graph.build import build
 from neuromech.graph.diff import Change, Difference, Item, diff
@@ -44,7 +44,7 @@ CHANGES = [stiffen, slow_down, exchange, lame, invert, float_away]
 
 
 def graph_after(*changes):
-    from conftest import QUADRUPED_HALF
+    from legs import QUADRUPED_HALF
 
     raw = json.loads(json.dumps(QUADRUPED_HALF))
     for change in changes:

@@ -7,7 +7,7 @@ from math import hypot
 from xml.etree import ElementTree
 
 import networkx as nx
-from conftest import RG, synapse
+from legs import RG, synapse
 
 from neuromech.graph.curves import RADIUS, Node, between
 from neuromech.graph.draw import draw, figure
