@@ -23,7 +23,7 @@ def foot_path_figure(recording: Recording) -> Figure | None:
     start, end = recent(recording)
     figure, axes = panels([title(recording, scope) for scope in feet], 3.4, 2.2)
     root = _root(recording)
-    for one, foot in zip(axes.values(), feet.values(), strict=True):
+    for one, foot in zip(axes, feet.values(), strict=True):
         time, x, z = _relative_path(recording, foot, root)
         chosen = (time >= start) & (time <= end)
         one.plot(x[chosen], z[chosen], linewidth=0.9)

@@ -1,5 +1,8 @@
 """Joint angles over time, and their phase planes as in Habu 2020 Fig. 3-3."""
 
+from collections import Counter
+from collections.abc import Callable
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
@@ -8,6 +11,7 @@ from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 
 from neuromech.analyse.measures import measure
+from neuromech.analyse.windows import Array
 from neuromech.report.layout import (
     TIME_COLORS,
     Trace,
@@ -15,6 +19,7 @@ from neuromech.report.layout import (
     by_scope,
     grid,
     in_shown_unit,
+    panels,
     recent,
     title,
     trace,
@@ -26,6 +31,9 @@ from neuromech.units import Quantity
 MOST_POINTS = 6000
 """Number of samples beyond which a phase plane leaves some out."""
 
+RARE = 0.5
+"""Percentage of samples on either side that may leave the frame of a phase plane."""
+
 
 def joint_angle_figure(recording: Recording) -> Figure | None:
     """Return joint angles, one row per leg: the whole run, and the last few cycles; None where none was recorded.
@@ -35,8 +43,8 @@ def joint_angle_figure(recording: Recording) -> Figure | None:
     scopes = by_scope(recording, "angle")
     if not scopes:
         return None
-    options = {"sharex": "col", "sharey": True, "width_ratios": [2.2, 1.0]}
-    figure, axes = grid(len(scopes), 2, 4.6, 1.75, **options)
+    options = {"sharex": "col", "sharey": "row", "width_ratios": [2.2, 1.0]}
+    figure, axes = grid(len(scopes), 2, 4.6, 2.1, **options)
     start, end = recent(recording)
     for (whole, late), (scope, names) in zip(axes, scopes.items(), strict=True):
         for name in names:
@@ -64,39 +72,35 @@ def _angle(whole: Axes, late: Axes, recording: Recording, name: str, start: floa
 
 
 def phase_plane_figure(recording: Recording) -> Figure | None:
-    """Return joint velocity against joint angle, coloured by time, one row per leg and one panel per joint.
+    """Return joint velocity against joint angle, coloured by time, one panel per joint, a leg's joints side by side.
 
-    None where no joint was recorded with both angle and velocity.
+    None where no joint was recorded with both angle and velocity. Rare excursions, such as the first jerk of a run,
+    leave the frame.
     """
-    scopes = _joints_with_velocity(recording)
-    if not scopes:
+    joints = _joints_with_velocity(recording)
+    if not joints:
         return None
-    columns = max(len(joints) for joints in scopes.values())
-    figure, axes = grid(len(scopes), columns, 2.4, 1.95)
+    width = max(Counter(joint.rpartition(".")[0] for joint in joints).values())
+    names = [" ".join(joint.rsplit(".", 1)) for joint in joints]
+    figure, axes = panels(names, 2.7, 2.1, columns=width if width > 1 else 2)
     normalize = Normalize(0.0, max(recording.outcome.time, recent(recording)[1]))
-    for row, (scope, joints) in zip(axes, scopes.items(), strict=True):
-        for unused in row[len(joints) :]:
-            unused.remove()
-        for one, joint in zip(row, joints, strict=False):
-            angle, velocity = trace(recording, f"{joint}.angle"), trace(recording, f"{joint}.velocity")
-            _path(one, angle, velocity, normalize)
-            one.set_title(f"{title(recording, scope)}  {angle.element}" if scope else angle.element, loc="left")
-            one.set_xlabel(axis_label("angle", angle.unit))
-        row[0].set_ylabel(axis_label("velocity", velocity.unit))
+    for one, joint in zip(axes, joints, strict=True):
+        _path(one, trace(recording, f"{joint}.angle"), trace(recording, f"{joint}.velocity"), normalize)
     colors = ScalarMappable(normalize, TIME_COLORS)
     figure.colorbar(colors, ax=figure.axes, label="time (s)", shrink=0.6, aspect=30, pad=0.02)
     return figure
 
 
-def _joints_with_velocity(recording: Recording) -> dict[str, list[str]]:
+def _joints_with_velocity(recording: Recording) -> list[str]:
     velocities = set(recording.match("*.velocity"))
-    found = {}
-    for scope, names in by_scope(recording, "angle").items():
-        joints = [name.removesuffix(".angle") for name in names]
-        moving = [joint for joint in joints if f"{joint}.velocity" in velocities]
-        if moving:
-            found[scope] = moving
-    return found
+    joints = (name.removesuffix(".angle") for name in recording.match("*.angle"))
+    return sorted((joint for joint in joints if f"{joint}.velocity" in velocities), key=_scope_order(recording))
+
+
+def _scope_order(recording: Recording) -> Callable[[str], int]:
+    """Return the key that puts the joints of one leg side by side and keeps the recorded order otherwise."""
+    scopes = list(by_scope(recording, "angle"))
+    return lambda joint: scopes.index(joint.rpartition(".")[0])
 
 
 def _path(axes: Axes, angle: Trace, velocity: Trace, normalize: Normalize) -> None:
@@ -106,4 +110,17 @@ def _path(axes: Axes, angle: Trace, velocity: Trace, normalize: Normalize) -> No
     segments = np.stack((points[:-1], points[1:]), axis=1)
     times = np.linspace(angle.time[0], angle.time[-1], len(segments))
     axes.add_collection(LineCollection(list(segments), array=times, cmap=TIME_COLORS, norm=normalize, linewidths=0.7))
-    axes.autoscale()
+    axes.set_xlim(*_usual_range(points[:, 0]))
+    axes.set_ylim(*_usual_range(points[:, 1]))
+    axes.set_xlabel(axis_label("angle", angle.unit))
+    axes.set_ylabel(axis_label("velocity", velocity.unit))
+
+
+def _usual_range(values: Array) -> tuple[float, float]:
+    """Return the range of all but the rarest values, with a margin."""
+    finite = values[np.isfinite(values)]
+    if len(finite) == 0:
+        return 0.0, 1.0
+    low, high = np.percentile(finite, [RARE, 100.0 - RARE])
+    margin = 0.15 * (high - low) or 1.0
+    return float(low - margin), float(high + margin)

@@ -48,17 +48,18 @@ def grid(rows: int, columns: int, width: float, height: float, **options: Any) -
     return figure, [list(row) for row in axes]
 
 
-def panels(names: Sequence[str], width: float, height: float, **options: Any) -> tuple[Figure, dict[str, Axes]]:
-    """Return a figure with one titled panel per name, at most two in a row."""
-    columns = min(2, len(names))
-    rows = -(-len(names) // columns)
-    figure, axes = grid(rows, columns, width, height, **options)
+def panels(
+    names: Sequence[str], width: float, height: float, columns: int = 2, **options: Any
+) -> tuple[Figure, list[Axes]]:
+    """Return a figure with one titled panel of a size (inches) per name, filled row by row."""
+    columns = min(columns, len(names))
+    figure, axes = grid(-(-len(names) // columns), columns, width, height, **options)
     flat = [one for row in axes for one in row]
     for unused in flat[len(names) :]:
         unused.remove()
     for name, one in zip(names, flat, strict=False):
         one.set_title(name, loc="left")
-    return figure, dict(zip(names, flat, strict=False))
+    return figure, flat[: len(names)]
 
 
 def save(figure: Figure, file: Path, formats: Sequence[FileFormat] = ("png",)) -> list[Path]:

@@ -13,7 +13,7 @@ def muscle_force_figure(recording: Recording) -> Figure | None:
         return None
     window = recent(recording)
     figure, axes = panels([title(recording, scope) for scope in scopes], 4.6, 2.3, sharex=True)
-    for one, names in zip(axes.values(), scopes.values(), strict=True):
+    for one, names in zip(axes, scopes.values(), strict=True):
         for name in names:
             force = trace(recording, name).between(*window)
             one.plot(force.time, force.values, label=force.element)

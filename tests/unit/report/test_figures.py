@@ -98,7 +98,7 @@ def test_a_still_joint_is_drawn_without_a_center(record):
 def test_phase_planes_are_of_joints_and_not_of_muscles(cat):
     figure = phase_plane_figure(cat())
     panels = [one for one in figure.axes if one.get_title(loc="left")]
-    assert [one.get_title(loc="left") for one in panels[:3]] == ["LF  hip", "LF  knee", "LF  ankle"]
+    assert [one.get_title(loc="left") for one in panels[:3]] == ["LF hip", "LF knee", "LF ankle"]
     assert len(panels) == 12
     assert panels[-1].get_xlabel() == "angle (deg)"
     assert panels[0].get_ylabel() == "velocity (deg/s)"
@@ -157,3 +157,12 @@ def test_scopes_keep_recorded_order_and_nested_names(record):
 def test_units_of_the_reader(record, unit, shown, factor):
     seen = trace(record({"LF.a.b": (unit, np.ones(3))}), "LF.a.b")
     assert (seen.unit, seen.values[0]) == (shown, pytest.approx(factor))
+
+
+def test_a_first_jerk_does_not_squeeze_the_phase_plane(record):
+    angle, velocity = np.sin(np.arange(5000) * 0.01), np.cos(np.arange(5000) * 0.01)
+    velocity[:5] = 500.0
+    figure = phase_plane_figure(record({"LH.hip.angle": ("rad", angle), "LH.hip.velocity": ("rad/s", velocity)}))
+    low, high = figure.axes[0].get_ylim()
+    assert low == pytest.approx(-1.3 * 180 / np.pi, rel=0.01)
+    assert high == pytest.approx(1.3 * 180 / np.pi, rel=0.01)
