@@ -7,6 +7,7 @@ from neuromech.graph.checks.body import (
     angle_outside_range,
     contact_without_ground,
     hinge_engine,
+    hinge_engine_knows_no_contact,
     inertia_of_no_body,
     range_upside_down,
     zero_axis,
@@ -45,6 +46,7 @@ VALUE_RULES: tuple[Rule, ...] = (
 RULES: tuple[Rule, ...] = (
     *VALUE_RULES,
     hinge_engine,
+    hinge_engine_knows_no_contact,
     synapse_defined_twice,
     port_missing,
     unit_clash,

@@ -16,8 +16,8 @@ from neuromech.graph.model import Connection, ModelGraph, NodeFamily
 from neuromech.graph.strokes import INK, Sign, Stroke, draw_node, draw_stroke
 
 _INCHES = 0.62
-_LEGEND = 1.75
-_LEGEND_WIDTH = 10.2
+_LEGEND = 2.2
+_LEGEND_WIDTH = 7.1
 _TEXT_SIZE: dict[str, tuple[float, float]] = {
     "neuron": (30, 24),
     "drive": (34, 22),
@@ -144,21 +144,22 @@ def _lines(name: str) -> list[str]:
 
 
 def _draw_legend(axes: Axes, left: float, bottom: float, families: list[NodeFamily], largest: float) -> None:
-    """Draw two lines of marks with their meaning, with the strokes and nodes of the picture itself."""
+    """Draw three lines of marks with their meaning, with the strokes and nodes of the picture itself."""
     for index, family in enumerate(families):
-        place = (left + 0.65 + 1.9 * index, bottom + 1.2)
+        place = (left + 0.65 + 1.75 * index, bottom + 1.65)
         draw_node(axes, Node(family, place))
-        axes.text(place[0] + 0.58, place[1], family, fontsize=7, va="center")
+        axes.text(place[0] + 0.55, place[1], family, fontsize=7, va="center")
     marks: tuple[tuple[Sign, float, str], ...] = (
         ("excitatory", 1.4, "excites"),
         ("inhibitory", 1.4, "inhibits"),
         ("wire", _WIRE, "is read by"),
     )
-    x, y = left + 0.2, bottom + 0.4
+    x, y = left + 0.2, bottom + 0.85
     for sign, width, words in marks:
         draw_stroke(axes, ((x, y), (x + 0.4, y), (x + 0.8, y)), Stroke(sign, width))
         axes.text(x + 0.9, y, words, fontsize=7, va="center")
         x += 1.95
+    x, y = left + 0.2, bottom + 0.35
     axes.text(x, y, "weight", fontsize=7, va="center")
     for relative in _MARKED if largest > 0.0 else ():
         axes.plot(

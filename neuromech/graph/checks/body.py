@@ -72,6 +72,14 @@ def hinge_engine(graph: ModelGraph) -> Iterator[Problem]:
         yield graph.document.problem("hinge-engine", "body.engine", message, got, hint)
 
 
+def hinge_engine_knows_no_contact(graph: ModelGraph) -> Iterator[Problem]:
+    """The engine `hinge` moves its joint exactly and knows no ground."""
+    if graph.body is not None and graph.body.engine == "hinge":
+        for element in graph.elements("contact"):
+            hint = "use engine 'pybullet', or remove the contact"
+            yield graph.document.problem("hinge-engine", element.path, "engine 'hinge' knows no contacts", hint=hint)
+
+
 def _joints(graph: ModelGraph) -> Iterator[tuple[Element, Joint]]:
     for element in graph.elements("joint"):
         assert isinstance(element.spec, Joint)

@@ -184,13 +184,13 @@ def test_one_joint_under_two_spellings(raw):
 
 
 INERTIAL = "<inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial>"
-URDF = """<robot name="leg">
-  <link name="trunk">%s</link>
-  <link name="thigh">%s</link>
+URDF = f"""<robot name="leg">
+  <link name="trunk">{INERTIAL}</link>
+  <link name="thigh">{INERTIAL}</link>
   <joint name="hip" type="continuous">
     <parent link="trunk"/><child link="thigh"/><axis xyz="0 1 0"/>
   </joint>
-</robot>""" % (INERTIAL, INERTIAL)
+</robot>"""
 
 
 def test_a_body_file_stands_relative_to_the_document_that_names_it(tmp_path, monkeypatch):

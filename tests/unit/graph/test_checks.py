@@ -108,11 +108,16 @@ def test_delay_below_step(raw, graph):
     ]
 
 
-def test_hinge_engine_moves_one_joint(raw):
+def test_hinge_engine_moves_one_joint_without_contacts(raw):
     raw["body"]["engine"] = "hinge"
     assert without_marks(raw) == [
+        *(
+            f"instances.{leg}.body.contacts.foot  engine 'hinge' knows no contacts. "
+            "Hint: use engine 'pybullet', or remove the contact"
+            for leg in ("LF", "RF")
+        ),
         "body.engine  needs exactly one hinge joint on a fixed root (got 4 joints (hinge, hinge, hinge, hinge) on a "
-        "free root). Hint: engine 'pybullet' moves any tree"
+        "free root). Hint: engine 'pybullet' moves any tree",
     ]
 
 
