@@ -9,6 +9,8 @@ from neuromech.spec.merge import merge_maps
 from neuromech.spec.node import ListNode, MapNode, Node, ScalarNode, short_text
 from neuromech.spec.reader import read
 
+MAXIMAL_CHAIN = 50
+
 
 @dataclass(frozen=True)
 class Composed:
@@ -75,6 +77,10 @@ class _Composer:
         way = " > ".join(str(file) for file in (*chain, target))
         if os.path.realpath(target) in {os.path.realpath(file) for file in chain}:
             self.problems.append(Problem("include-cycle", "extends", f"includes itself: {way}", None, None, mark))
+            return False
+        if len(chain) >= MAXIMAL_CHAIN:
+            message = f"documents extend each other over more than {MAXIMAL_CHAIN} files"
+            self.problems.append(Problem("include-chain", "extends", message, None, None, mark))
             return False
         if not target.is_file():
             self.problems.append(

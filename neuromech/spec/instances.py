@@ -3,13 +3,15 @@
 from collections.abc import Mapping
 
 from neuromech.errors import DocumentError, Problem, did_you_mean
+from neuromech.spec.builder import MAXIMAL_DEPTH, MAXIMAL_NODES
 from neuromech.spec.merge import merge_maps
 from neuromech.spec.mirror import mirrored
 from neuromech.spec.modules import Module
-from neuromech.spec.node import MISSING, Entry, MapNode, Node, ScalarNode, join, kind_of, short_text
+from neuromech.spec.node import MISSING, Entry, MapNode, Node, ScalarNode, join, kind_of, short_text, size_within
 from neuromech.spec.substitute import fill_arguments
 
 MAXIMAL_INSTANCES = 2_000
+MAXIMAL_NESTING = 20
 _WORDS = ("use", "mirror", "with")
 
 
@@ -21,6 +23,7 @@ class Expander:
         self._modules = modules
         self._problems = problems
         self._made = 0
+        self._nodes = 0
 
     def scope(self, node: MapNode, path: str = "", chain: tuple[str, ...] = ()) -> MapNode:
         """Return a scope with its instances expanded; `chain` names the modules around it.
@@ -96,9 +99,20 @@ class Expander:
             way = " > ".join((*chain, word))
             self._problem("module-recursion", use, f"the module contains itself: {way}", node, "use", None)
             return None
+        if len(chain) >= MAXIMAL_NESTING:
+            self._problem("module-nesting", use, f"modules are nested deeper than {MAXIMAL_NESTING}", node, "use", None)
+            return None
         arguments = self._bind(module, given, node, path)
         body = fill_arguments(module.body, arguments, self._problems, path)
+        self._spend(body, path, node)
         return self.scope(body, path, (*chain, word)) if isinstance(body, MapNode) else None
+
+    def _spend(self, body: Node, path: str, node: MapNode) -> None:
+        size = size_within(body, MAXIMAL_NODES - self._nodes, MAXIMAL_DEPTH)
+        if size is None:
+            message = f"modules expand to more than {MAXIMAL_NODES} values, or deeper than {MAXIMAL_DEPTH} levels"
+            raise DocumentError([*self._problems, Problem("too-many-values", path, message, None, None, node.mark)])
+        self._nodes += size
 
     def _bind(self, module: Module, given: Mapping[str, Entry], node: MapNode, path: str) -> dict[str, Node]:
         for name, entry in given.items():

@@ -153,3 +153,19 @@ def walk(node: Node, path: str = "") -> Iterator[tuple[str, Node]]:
     elif isinstance(node, ListNode):
         for index, item in enumerate(node.items):
             yield from walk(item, join(path, index))
+
+
+def size_within(node: Node, most: int, deepest: int) -> int | None:
+    """Return how many nodes a tree has, or None where it has more than `most` or is deeper than `deepest`."""
+    waiting = [(node, 0)]
+    size = 0
+    while waiting:
+        found, depth = waiting.pop()
+        size += 1
+        if size > most or depth > deepest:
+            return None
+        if isinstance(found, MapNode):
+            waiting.extend((entry.node, depth + 1) for entry in found.entries.values())
+        elif isinstance(found, ListNode):
+            waiting.extend((item, depth + 1) for item in found.items)
+    return size

@@ -172,6 +172,13 @@ def test_diamond_of_base_documents_is_no_cycle(write, half_centre):
     assert load(path, catalogue=Catalogue.built_in()).experiment.name == "diamond"
 
 
+def test_very_long_chain_of_documents_is_stopped(write):
+    for number in range(60):
+        write(f"extends: d{number + 1}.yaml\n", f"d{number}.yaml")
+    with pytest.raises(DocumentError, match="over more than 50 files"):
+        load(Path("d0.yaml"), catalogue=Catalogue.built_in())
+
+
 def test_marks_point_to_what_was_written(write, half_centre):
     write(half_centre, "base.yaml")
     path = write("extends: base.yaml\nsolver:\n  step: 0.25 ms\n")
@@ -263,9 +270,9 @@ def test_problem_in_a_module_is_told_once_however_many_instances_it_has(loaded, 
 
 def test_modules_that_multiply_are_stopped(loaded):
     levels = "".join(
-        f"  m{level}: {{instances: {{a: {{use: m{level + 1}}}, b: {{use: m{level + 1}}}}}}}\n" for level in range(30)
+        f"  m{level}: {{instances: {{a: {{use: m{level + 1}}}, b: {{use: m{level + 1}}}}}}}\n" for level in range(15)
     )
-    text = f"neuromech: 1\nname: bomb\nmodules:\n{levels}  m30: {{network: {{}}}}\n"
+    text = f"neuromech: 1\nname: bomb\nmodules:\n{levels}  m15: {{network: {{}}}}\n"
     with pytest.raises(DocumentError, match="more than 2000 instances"):
         loaded(text + "instances: {x: {use: m0}}\nprotocol: {duration: 1 s}\n")
 
@@ -273,9 +280,28 @@ def test_modules_that_multiply_are_stopped(loaded):
 def test_text_that_doubles_with_each_module_is_stopped(loaded):
     levels = "".join(
         f'  m{level}: {{arguments: {{t: }}, instances: {{a: {{use: m{level + 1}, with: {{t: "${{t}}${{t}}"}}}}}}}}\n'
-        for level in range(30)
+        for level in range(15)
     )
-    last = '  m30: {arguments: {t: }, network: {neurons: {A: {kind: "${t}"}}}}\n'
+    last = '  m15: {arguments: {t: }, network: {neurons: {A: {kind: "${t}"}}}}\n'
     text = f"neuromech: 1\nname: bomb\nmodules:\n{levels}{last}"
     with pytest.raises(DocumentError, match="longer than 10000 characters"):
         loaded(text + "instances: {x: {use: m0, with: {t: ab}}}\nprotocol: {duration: 1 s}\n")
+
+
+def test_chain_of_very_many_modules_is_stopped(loaded):
+    levels = "".join(f"  m{level}: {{instances: {{a: {{use: m{level + 1}}}}}}}\n" for level in range(2000))
+    text = f"neuromech: 1\nname: bomb\nmodules:\n{levels}  m2000: {{network: {{}}}}\n"
+    with pytest.raises(DocumentError, match="nested deeper than 20"):
+        loaded(text + "instances: {x: {use: m0}}\nprotocol: {duration: 1 s}\n")
+
+
+@pytest.mark.parametrize("row", [", ".join(['"${t}"'] * 50), "[" * 9 + '"${t}"' + "]" * 9])
+def test_argument_that_grows_with_each_module_is_stopped(loaded, row):
+    levels = "".join(
+        f"  m{level}: {{arguments: {{t: }}, instances: {{a: {{use: m{level + 1}, with: {{t: [{row}]}}}}}}}}\n"
+        for level in range(15)
+    )
+    last = '  m15: {arguments: {t: }, network: "${t}"}\n'
+    text = f"neuromech: 1\nname: bomb\nmodules:\n{levels}{last}"
+    with pytest.raises(DocumentError, match="more than 200000 values, or deeper than 60 levels"):
+        loaded(text + "instances: {x: {use: m0, with: {t: 1}}}\nprotocol: {duration: 1 s}\n")
