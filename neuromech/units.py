@@ -198,7 +198,8 @@ class Unit:
 
 _SI_UNITS = (
     *("", "s", "m", "kg", "rad", "A", "N", "V", "S", "F", "J", "W", "Pa", "ohm", "1/s", "rad/s", "rad/s^2", "m/s"),
-    *("m/s^2", "kg m^2", "m^2", "N/m", "N s/m", "N s", "N/rad", "N m/rad", "N m s/rad", "1/N", "1/rad", "s/rad", "V/s"),
+    *("m/s^2", "kg m^2", "m^2", "N m", "N/m", "N s/m", "N s", "N/rad", "N m/rad", "N m s/rad"),
+    *("1/N", "1/rad", "s/rad", "V/s"),
 )
 
 

@@ -1,10 +1,12 @@
 """Each rule: an example that obeys it (the two legs of `legs.py`) and one that breaks it, with the exact message."""
 
 from pathlib import Path
+from typing import ClassVar, Literal
 
 import pytest
 from legs import MOTONEURON, RG, joint, muscle, synapse, to_document
 
+from neuromech.components.base import Synapse
 from neuromech.components.catalogue import Catalogue
 from neuromech.errors import DocumentError
 from neuromech.graph.build import build
@@ -132,6 +134,21 @@ def test_the_same_synapse_from_two_scopes(raw):
 def test_parallel_synapses_of_two_kinds_are_two_synapses(raw, graph):
     raw["network"]["synapses"]["inhibitory"] = {"LF.RG-F": {"LF.In-F": synapse("inhibitory")}}
     check(graph(raw))
+
+
+class Modulation(Synapse):
+    kind: Literal["modulation"] = "modulation"
+    port: ClassVar[str] = "gain"
+    sign: ClassVar[Literal["excitatory"]] = "excitatory"
+    source: ClassVar[str] = "an example of a component from elsewhere"
+
+
+def test_a_synapse_into_a_port_that_the_neuron_lacks(raw):
+    raw["network"]["synapses"]["modulation"] = {"LF.RG-F": {"LF.In-F": Modulation()}}
+    assert without_marks(raw) == [
+        "network.synapses.modulation.LF.RG-F.LF.In-F  needs the input port 'gain' of 'LF.In-F', which has none of that "
+        "name. Hint: allowed: excitation, inhibition"
+    ]
 
 
 def test_unit_clash_of_a_slide_and_an_angle(raw):

@@ -1,7 +1,7 @@
 """Names and units of signals."""
 
 from neuromech.graph.signals import matching, signals, states
-from neuromech.units import unit_factor
+from neuromech.units import si_unit, unit_factor
 
 
 def test_every_signal_has_a_known_unit(raw, graph):
@@ -38,3 +38,9 @@ def test_a_star_crosses_scopes_and_a_question_mark_does_not_vanish():
     names = ["LF.RG-F.activity", "RG-F.activity", "LF.RG.activity"]
     assert matching("*.activity", names) == names
     assert matching("RG-?.activity", names) == ["RG-F.activity"]
+
+
+def test_the_si_unit_of_a_signal_keeps_its_meaning(raw, graph):
+    found = signals(graph(raw))
+    assert si_unit(found["LF.knee.torque"]) == "N m"
+    assert {si_unit(found[name]) for name in ("LF.knee.angle", "LF.knee.velocity")} == {"rad", "rad/s"}
