@@ -62,7 +62,7 @@ def layout(graph: ModelGraph) -> Layout:
 
     Elements of the document itself stand between the rows where there are instances.
     """
-    groups = _groups(graph)
+    groups = _groups(graph) or {"": {}}
     alone = groups.pop("") if "" in groups and len(groups) > 1 else {}
     rows = sorted({row for group in groups.values() for row in group})
     ordered = {name: _ordered(graph, group) for name, group in groups.items()}

@@ -1,7 +1,8 @@
 """The rule about algebraic loops."""
 
 import inspect
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from functools import cache
 
 import networkx as nx
 
@@ -44,4 +45,9 @@ def _passes_at_once(receiver: Element, connection: Connection) -> bool:
     spec = receiver.spec
     if not isinstance(spec, Component) or spec.output is None or getattr(connection.spec, "delay", 0.0) > 0.0:
         return False
-    return connection.port in inspect.signature(spec.output).parameters
+    return connection.port in _arguments(spec.output)
+
+
+@cache
+def _arguments(equation: Callable[..., object]) -> frozenset[str]:
+    return frozenset(inspect.signature(equation).parameters)

@@ -7,7 +7,7 @@ from math import hypot
 from xml.etree import ElementTree
 
 import networkx as nx
-from legs import RG, synapse
+from legs import BRICK, RG, synapse
 
 from neuromech.graph.curves import RADIUS, Node, between
 from neuromech.graph.draw import draw, figure
@@ -88,6 +88,12 @@ def test_a_neuron_that_excites_itself_is_drawn(graph, tmp_path):
     network = {"neurons": {"RG": RG}, "synapses": {"excitatory": {"RG": {"RG": synapse("excitatory")}}}}
     draw(graph({"neuromech": 1, "name": "n", "network": network, "protocol": {"duration": "1 s"}}), tmp_path / "n.svg")
     assert ">RG<" in (tmp_path / "n.svg").read_text()
+
+
+def test_a_body_without_network_has_an_empty_picture(graph, tmp_path):
+    body = {"segments": {"trunk": BRICK}}
+    draw(graph({"neuromech": 1, "name": "n", "body": body, "protocol": {"duration": "1 s"}}), tmp_path / "n.svg")
+    assert "trunk" not in (tmp_path / "n.svg").read_text()
 
 
 def test_graphml_comes_back_as_it_was_written(raw, graph, tmp_path):
