@@ -4,7 +4,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
 from types import TracebackType
-from typing import Self
+from typing import Any, ClassVar, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,8 +36,11 @@ class Body(ABC):
         step_seconds: time by which one step advances the body.
         engine: what moves the body.
         layout: where things stand in the state array.
+        native_module: module with the compiled functions `read(engine, state)` and `step(engine, torque)`, None
+            where the engine has none. They do what the methods do, to the last bit.
     """
 
+    native_module: ClassVar[str | None] = None
     joints: tuple[str, ...]
     contacts: tuple[str, ...]
     step_seconds: float
@@ -74,6 +77,16 @@ class Body(ABC):
         Raises:
             RunError: the engine failed, or the body is closed.
         """
+
+    def native(self) -> tuple[Any, ...] | None:
+        """Return what the compiled functions of `native_module` take as `engine`, or None where they cannot be used.
+
+        The arrays in it are valid until the body is reset or closed.
+
+        Raises:
+            RunError: the body is closed.
+        """
+        return None
 
     @abstractmethod
     def close(self) -> None:
