@@ -5,7 +5,21 @@ from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Literal
 
-from neuromech.analyse import levels, oscillation, phases
+from neuromech.analyse.levels import (
+    correlation,
+    final,
+    fraction_active,
+    held,
+    maximum,
+    mean,
+    minimum,
+    outcome,
+    rms_difference,
+    silence,
+    span,
+)
+from neuromech.analyse.oscillation import amplitude, burst_duration, center, period, rhythm, settling_time
+from neuromech.analyse.phases import gait, interlimb_phases, phase, phase_order
 from neuromech.analyse.windows import NotMeasurableError, View
 from neuromech.errors import MeasureError, did_you_mean
 from neuromech.simulate.recording import Recording
@@ -40,27 +54,27 @@ class MeasureKind:
 
 MEASURES: Mapping[str, MeasureKind] = MappingProxyType(
     {
-        "outcome": MeasureKind(levels.outcome, "text", ()),
-        "period": MeasureKind(oscillation.period, "time", ("signal",)),
-        "rhythm": MeasureKind(oscillation.rhythm, "text", ("signal",)),
-        "center": MeasureKind(oscillation.center, "signal", ("signal",)),
-        "amplitude": MeasureKind(oscillation.amplitude, "signal", ("signal",)),
-        "settling_time": MeasureKind(oscillation.settling_time, "time", ("signal", "tolerance")),
-        "burst_duration": MeasureKind(oscillation.burst_duration, "time", ("signal", "level")),
-        "phase": MeasureKind(phases.phase, "number", ("signal", "reference")),
-        "phase_order": MeasureKind(phases.phase_order, "text", ("signals", "reference")),
-        "interlimb_phases": MeasureKind(phases.interlimb_phases, "text", ("signals",)),
-        "gait": MeasureKind(phases.gait, "text", ("signals",)),
-        "silence": MeasureKind(levels.silence, "signal", ("signals",)),
-        "held": MeasureKind(levels.held, "text", ("signal", "level")),
-        "fraction_active": MeasureKind(levels.fraction_active, "number", ("signal",)),
-        "mean": MeasureKind(levels.mean, "signal", ("signal",)),
-        "minimum": MeasureKind(levels.minimum, "signal", ("signal",)),
-        "maximum": MeasureKind(levels.maximum, "signal", ("signal",)),
-        "range": MeasureKind(levels.span, "signal", ("signal",)),
-        "final": MeasureKind(levels.final, "signal", ("signal",)),
-        "rms_difference": MeasureKind(levels.rms_difference, "signal", ("signal", "reference")),
-        "correlation": MeasureKind(levels.correlation, "number", ("signal", "reference")),
+        "outcome": MeasureKind(outcome, "text", ()),
+        "period": MeasureKind(period, "time", ("signal",)),
+        "rhythm": MeasureKind(rhythm, "text", ("signal",)),
+        "center": MeasureKind(center, "signal", ("signal",)),
+        "amplitude": MeasureKind(amplitude, "signal", ("signal",)),
+        "settling_time": MeasureKind(settling_time, "time", ("signal", "tolerance")),
+        "burst_duration": MeasureKind(burst_duration, "time", ("signal", "level")),
+        "phase": MeasureKind(phase, "number", ("signal", "reference")),
+        "phase_order": MeasureKind(phase_order, "text", ("signals", "reference")),
+        "interlimb_phases": MeasureKind(interlimb_phases, "text", ("signals",)),
+        "gait": MeasureKind(gait, "text", ("signals",)),
+        "silence": MeasureKind(silence, "signal", ("signals",)),
+        "held": MeasureKind(held, "text", ("signal", "level")),
+        "fraction_active": MeasureKind(fraction_active, "number", ("signal",)),
+        "mean": MeasureKind(mean, "signal", ("signal",)),
+        "minimum": MeasureKind(minimum, "signal", ("signal",)),
+        "maximum": MeasureKind(maximum, "signal", ("signal",)),
+        "range": MeasureKind(span, "signal", ("signal",)),
+        "final": MeasureKind(final, "signal", ("signal",)),
+        "rms_difference": MeasureKind(rms_difference, "signal", ("signal", "reference")),
+        "correlation": MeasureKind(correlation, "number", ("signal", "reference")),
     }
 )
 
@@ -92,9 +106,9 @@ def measure(recording: Recording, spec: Measure) -> MeasuredValue:
     """
     kind = measure_kind(spec)
     unit = _unit(View(recording, spec), kind)
-    outcome = recording.outcome
-    if spec.kind != "outcome" and outcome.kind != "finished" and (spec.until is None or outcome.time < spec.until):
-        return MeasuredValue(f"the run {_ENDED[outcome.kind]} at {outcome.time:g} s", unit)
+    end = recording.outcome
+    if spec.kind != "outcome" and end.kind != "finished" and (spec.until is None or end.time < spec.until):
+        return MeasuredValue(f"the run {_ENDED[end.kind]} at {end.time:g} s", unit)
     try:
         return MeasuredValue(kind.take(View(recording, spec)), unit)
     except NotMeasurableError as reason:
