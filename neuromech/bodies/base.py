@@ -37,7 +37,8 @@ class Body(ABC):
         engine: what moves the body.
         layout: where things stand in the state array.
         native_module: module with the compiled functions `read(engine, state)` and `step(engine, torque)`, None
-            where the engine has none. They do what the methods do, to the last bit.
+            where the engine has none. They do what the methods do, to the last bit. Instead of raising they return an
+            integer: 0, or another number where the engine failed; `check` tells why.
     """
 
     native_module: ClassVar[str | None] = None
@@ -87,6 +88,14 @@ class Body(ABC):
             RunError: the body is closed.
         """
         return None
+
+    def check(self) -> None:
+        """Raise what a compiled function could only report by its result; nothing where all is well.
+
+        Raises:
+            RunError: the engine failed since the body was opened or reset.
+        """
+        return
 
     @abstractmethod
     def close(self) -> None:
