@@ -56,7 +56,7 @@ def _imports(shape: Shape) -> str:
         "from neuromech.compiler.dynamics import mass_matrix",
         "from neuromech.compiler.kinematics import contact_positions, forward_kinematics, roll_pitch_yaw",
         "from neuromech.compiler.kinematics import segment_velocities, world_axis",
-        "from neuromech.compiler.numerics import compiled, equation, interpolate, relaxed",
+        "from neuromech.compiler.numerics import compiled, elementwise, equation, interpolate, relaxed",
         "from neuromech.compiler.paths import constant_path, straight_path",
         *sorted({f"from {kind.cls.__module__} import {kind.cls.__qualname__}" for kind in shape.kinds}),
     ]
@@ -67,7 +67,9 @@ def _equations(kind: KindShape) -> str:
     cls = kind.cls
     lines = [f"# {kind.name}: {cls.source}"]
     lines += [
-        f"{kind.name}_{part} = equation({cls.__qualname__}.{part})" for part in ("output", "flow") if getattr(cls, part)
+        f"{kind.name}_{part} = elementwise({cls.__qualname__}.{part})"
+        for part in ("output", "flow")
+        if getattr(cls, part)
     ]
     return "\n".join(lines)
 
@@ -96,48 +98,47 @@ def _loop(kind: KindShape, function: Callable[..., Any], part: str) -> Iterator[
 
 
 def _locals(kind: KindShape, function: Callable[..., Any], part: str) -> Iterator[str]:
+    """Yield views of what an equation reads and writes: `view[i]` with i ≥ 0 is what a loop can do several at a time."""
     name = kind.name
+    arguments = argument_names(function)
     yield f"count = <{name}.count>  # {name}"
-    if kind.cls.states:
-        yield f"x0 = <{name}.states>"
-    if kind.cls.inputs:
-        yield f"u0 = <{name}.inputs>"
-    if part == "output":
-        yield f"s0 = <{name}.outputs>"
-    for argument in argument_names(function):
+    for buffer, section, members in (("x", "states", kind.cls.states), ("u", "inputs", kind.cls.inputs)):
+        for k, member in enumerate(members):
+            if member.name in arguments:
+                yield f"{member.name} = {buffer}[{_block(f'<{name}.{section}>', k)}]"
+    for argument in arguments:
         if argument in kind.cls.model_fields:
-            read = f"p[<{name}.{argument}>]" if argument in kind.uniform else f"<{name}.{argument}>"
-            yield f"{argument} = {read}"
+            place = f"<{name}.{argument}>"
+            yield f"{argument} = p[{place}]" if argument in kind.uniform else f"{argument} = p[{_block(place, 0)}]"
+    if part == "flow":
+        for k, state in enumerate(kind.cls.states):
+            for target in ("drive", "rate"):
+                yield f"{target}_of_{state.name} = {target}[{_block(f'<{name}.states>', k)}]"
+    else:
+        for k, port in enumerate(kind.cls.outputs):
+            yield f"{port.name}_out = s[{_block(f'<{name}.outputs>', k)}]"
+
+
+def _block(start: str, k: int) -> str:
+    """Return the slice of the k-th block of `count` numbers."""
+    first = start + ("" if k == 0 else " + count" if k == 1 else f" + {k} * count")
+    return f"{first} : {start} + " + ("count" if k == 0 else f"{k + 1} * count")
 
 
 def _call(kind: KindShape, function: Callable[..., Any], part: str) -> Iterator[str]:
     arguments = ", ".join(_argument(kind, name) for name in argument_names(function))
     if part == "flow":
-        results = ", ".join(f"drive{k}, rate{k}" for k in range(len(kind.cls.states)))
-        yield f"{results} = {kind.name}_flow({arguments})"
-        for k in range(len(kind.cls.states)):
-            at = f"{_at('x0', k)}i"
-            yield f"drive[{at}] = drive{k}"
-            yield f"rate[{at}] = rate{k}"
-        return
-    results = ", ".join(f"s[{_at('s0', k)}i]" for k in range(len(kind.cls.outputs)))
-    yield f"{results} = {kind.name}_output({arguments})"
+        names = [f"{target}_of_{state.name}[i]" for state in kind.cls.states for target in ("drive", "rate")]
+    else:
+        names = [f"{port.name}_out[i]" for port in kind.cls.outputs]
+    yield f"{', '.join(names)} = {kind.name}_{part}({arguments})"
 
 
 def _argument(kind: KindShape, name: str) -> str:
-    states = [state.name for state in kind.cls.states]
-    ports = [port.name for port in kind.cls.inputs]
-    if name in states:
-        return f"x[{_at('x0', states.index(name))}i]"
-    if name in ports:
-        return f"u[{_at('u0', ports.index(name))}i]"
-    if name in kind.cls.model_fields:
-        return name if name in kind.uniform else f"p[{name} + i]"
-    raise TypeError(f"{kind.cls.__qualname__}: '{name}' is no state, input port or parameter")
-
-
-def _at(start: str, k: int) -> str:
-    return f"{start} + " + (f"{k} * count + " if k > 1 else "count + " if k else "")
+    own = {member.name for member in (*kind.cls.states, *kind.cls.inputs)}
+    if name not in own and name not in kind.cls.model_fields:
+        raise TypeError(f"{kind.cls.__qualname__}: '{name}' is no state, input port or parameter")
+    return name if name in kind.uniform else f"{name}[i]"
 
 
 def _dispatch(function: str, shape: Shape, kinds: list[KindShape]) -> str:
@@ -156,7 +157,13 @@ def _dispatch(function: str, shape: Shape, kinds: list[KindShape]) -> str:
             continue
         lines.append(f"        {'el' if branch else ''}if kind == {shape.kinds.index(kind)}:")
         lines += [f"            {line}" for line in _locals(kind, output, "output")]
-        lines += ["            gather(s, u, p, F, I, u0 + i, 1, count, " + str(len(kind.cls.inputs)) + ")"]
+        lines += [
+            "            gather(s, u, p, F, I, <"
+            + kind.name
+            + ".inputs> + i, 1, count, "
+            + str(len(kind.cls.inputs))
+            + ")"
+        ]
         lines += [f"            {line}" for line in _call(kind, output, "output")]
     return "\n".join(lines)
 

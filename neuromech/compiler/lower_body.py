@@ -75,8 +75,15 @@ def joint_parameters(graph: ModelGraph, body: BodyModel, layout: Layout, floats:
             follow(layout, getattr(joint, field), start + i, f"{graph.element(name).path}.{field}")
 
 
-def paths(elements: list[Element], tree: Tree, graph: ModelGraph, layout: Layout, integers: Buffer, floats: Buffer,
-          work: Reserve) -> int:
+def paths(
+    elements: list[Element],
+    tree: Tree,
+    graph: ModelGraph,
+    layout: Layout,
+    integers: Buffer,
+    floats: Buffer,
+    work: Reserve,
+) -> int:
     """Write joints, arms and points of every muscle path; return the largest number of points of one path."""
     crossed = [_crossed(element, tree, graph) for element in elements]
     specs = [element.spec.path for element in elements if isinstance(element.spec, Muscle)]
@@ -107,7 +114,10 @@ def _starts(counts: Iterable[int]) -> list[int]:
 
 
 def _constant_paths(
-    elements: list[Element], specs: list[ConstantMomentArms | StraightLines], crossed: list[list[str]], layout: Layout,
+    elements: list[Element],
+    specs: list[ConstantMomentArms | StraightLines],
+    crossed: list[list[str]],
+    layout: Layout,
     floats: Buffer,
 ) -> None:
     zero = Quantity(0.0)

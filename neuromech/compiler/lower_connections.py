@@ -89,9 +89,7 @@ def evaluation_order(graph: ModelGraph, blocks: tuple[Block, ...], integers: Buf
 
     Neurons come in one order, evaluated with the network; muscles and sensors in another, evaluated with the body.
     """
-    place = {
-        element.name: (k, i) for k, block in enumerate(blocks) for i, element in enumerate(block.elements)
-    }
+    place = {element.name: (k, i) for k, block in enumerate(blocks) for i, element in enumerate(block.elements)}
     passing: dict[bool, set[str]] = defaultdict(set)
     for block in blocks:
         if evaluated_with_body(block.shape.cls) or has_feedthrough(block.shape.cls):

@@ -1,11 +1,14 @@
 """Small numeric kernels that every compiled step shares, and the one way in which we compile."""
 
 from collections.abc import Callable
+from types import FunctionType
 from typing import Any
 
 import numba
 import numpy as np
 from numpy.typing import NDArray
+
+from neuromech.compiler.exponential import cosh, exp
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -20,8 +23,18 @@ def compiled(function: Callable[..., Any]) -> Any:
 
 
 def equation(function: Callable[..., Any]) -> Any:
-    """Compile an equation of a component; it is inlined into the kernel that calls it, so nothing is kept on disk."""
+    """Compile a function that is inlined into the kernel that calls it, so that nothing is kept on disk."""
     return numba.njit(nogil=True, error_model="numpy", fastmath=_FAST_MATH)(function)
+
+
+def elementwise(function: Callable[..., Any]) -> Any:
+    """Compile an equation of a component so that a loop can evaluate it for several elements at once.
+
+    The equation's own `exp` and `cosh` are exchanged for those of `neuromech.compiler.exponential`.
+    """
+    names = {**function.__globals__, "exp": exp, "cosh": cosh}
+    own = FunctionType(function.__code__, names, function.__name__, function.__defaults__)
+    return numba.njit(nogil=True, error_model="numpy", fastmath=_FAST_MATH, forceinline=True)(own)
 
 
 @equation

@@ -64,9 +64,7 @@ def straight_path(
 
 
 @equation
-def _motion(
-    points: Floats, i: int, axis: Floats, origin: Floats, j: int, slides: int
-) -> tuple[float, float, float]:
+def _motion(points: Floats, i: int, axis: Floats, origin: Floats, j: int, slides: int) -> tuple[float, float, float]:
     if slides:
         return axis[j, 0], axis[j, 1], axis[j, 2]
     x = points[i, 0] - origin[0]
