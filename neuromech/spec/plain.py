@@ -2,6 +2,7 @@
 
 import json
 import re
+from functools import lru_cache
 from typing import Any
 
 from neuromech.spec.node import ListNode, MapNode, Node, ScalarNode, scalar_value
@@ -50,12 +51,15 @@ def _flow(node: Node) -> str | None:
 
 
 def _scalar(node: ScalarNode) -> str:
+    if node.quoted:
+        return _quoted(node.text)
     value = scalar_value(node)
     if value is None:
         return "null"
     return _quoted(node.text) if isinstance(value, str) else node.text
 
 
+@lru_cache(maxsize=4096)
 def _quoted(text: str) -> str:
     harmless = _WORD.match(text) and not text.endswith(" ")
     if harmless and isinstance(scalar_value(ScalarNode(text, False, None)), str):
