@@ -32,6 +32,7 @@ def json_schema(catalogue: Catalogue) -> Schema:
 class _Generator:
     def __init__(self, catalogue: Catalogue) -> None:
         self._catalogue = catalogue
+        self._models: dict[str, type[BaseModel]] = {}
         self._definitions: dict[str, Schema] = {
             "reference": {
                 "type": "string",
@@ -131,6 +132,8 @@ class _Generator:
 
     def _named(self, model: type[BaseModel]) -> Schema:
         name = model.__name__
+        if self._models.setdefault(name, model) is not model:
+            name = f"{model.__module__}.{model.__qualname__}"
         if name not in self._definitions:
             self._definitions[name] = {}
             self._definitions[name] = self._instance() if model is Instance else self._object(model)

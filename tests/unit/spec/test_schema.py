@@ -101,6 +101,23 @@ class CustomNeuron(RybakInterneuron):
     kind: Literal["custom_neuron"] = "custom_neuron"
 
 
+class RateNeuron(RybakInterneuron):
+    """A neuron of another package whose class has the name of a built-in one."""
+
+    kind: Literal["other_rate_neuron"] = "other_rate_neuron"
+
+
+def test_classes_of_the_same_name_are_told_apart():
+    definitions = json_schema(Catalogue([*Catalogue.built_in().classes.values(), RateNeuron]))["$defs"]
+    cases = {
+        case["if"]["properties"]["kind"]["const"]: case["then"]["$ref"] for case in definitions["neuron"]["allOf"][:-1]
+    }
+    assert cases["rate_neuron"] != cases["other_rate_neuron"]
+    for kind in ("rate_neuron", "other_rate_neuron"):
+        found = definitions[cases[kind].removeprefix("#/$defs/")]
+        assert found["properties"]["kind"]["anyOf"][0]["enum"] == [kind]
+
+
 def test_classes_of_other_packages_appear():
     schema = json_schema(Catalogue([*Catalogue.built_in().classes.values(), CustomNeuron]))
     assert "custom_neuron" in schema["$defs"]["neuron"]["properties"]["kind"]["anyOf"][0]["enum"]
