@@ -13,13 +13,13 @@ from neuromech.spec.load import load
 PACKAGE = Path(__file__).parents[1]
 
 
-def checked_graph(path: Path, overrides: Sequence[str] = ()) -> ModelGraph:
+def checked_graph(path: Path, catalogue: Catalogue, overrides: Sequence[str] = ()) -> ModelGraph:
     """Return the checked graph of a document. Light: nothing that can run a simulation is imported for it.
 
     Raises:
         DocumentError: the document is wrong.
     """
-    graph = build(load(path, catalogue=Catalogue.installed(), overrides=overrides))
+    graph = build(load(path, catalogue=catalogue, overrides=overrides))
     check(graph)
     return graph
 

@@ -10,6 +10,7 @@ from rich.text import Text
 from neuromech.cli.documents import checked_graph
 from neuromech.cli.files import replace
 from neuromech.cli.terminal import FINISHED, note, results
+from neuromech.components.catalogue import Catalogue
 from neuromech.errors import DocumentError, Problem
 from neuromech.graph.model import ModelGraph
 
@@ -25,7 +26,7 @@ def graph(spec: Path, out: Path | None, overrides: Sequence[str]) -> int:
     """
     if out is not None and out.suffix not in WRITERS:
         raise DocumentError([Problem("suffix", "--out", f"must end in {' or '.join(WRITERS)}", repr(str(out)))])
-    model = checked_graph(spec, overrides)
+    model = checked_graph(spec, Catalogue.installed(), overrides)
     if out is None:
         results().print(element_table(model))
         return FINISHED

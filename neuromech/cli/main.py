@@ -1,5 +1,6 @@
 """The entry point: arguments and help of every command; what a command does is loaded when it is called."""
 
+import gc
 import sys
 from collections.abc import Sequence
 from importlib.metadata import version
@@ -32,6 +33,8 @@ app = typer.Typer(
 
 def main() -> None:
     """Run the command line; ends the process with the command's exit code."""
+    # A command makes many objects and drops few: collecting them as often as usual costs a tenth of the time.
+    gc.set_threshold(100_000)
     sys.excepthook = report_bug
     keep_stdout_for_results()
     typer.main.get_command(app)(prog_name="neuromech")

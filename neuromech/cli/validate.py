@@ -1,11 +1,12 @@
 """`neuromech validate`: every problem of every document."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from neuromech.cli.documents import checked_graph, document_files
 from neuromech.cli.problems import Format, write
 from neuromech.cli.terminal import BAD_DOCUMENT, FINISHED, note, write_line
+from neuromech.components.catalogue import Catalogue
 from neuromech.errors import DocumentError, Problem
 
 
@@ -16,7 +17,7 @@ def validate(paths: Sequence[Path], form: Format) -> int:
         DocumentError: a path does not exist.
     """
     files = document_files(paths)
-    problems = list(dict.fromkeys(problem for file in files for problem in problems_of(file)))
+    problems = problems_of(files)
     text = write(problems, form)
     if text:
         write_line(text)
@@ -24,13 +25,16 @@ def validate(paths: Sequence[Path], form: Format) -> int:
     return BAD_DOCUMENT if problems else FINISHED
 
 
-def problems_of(file: Path) -> tuple[Problem, ...]:
-    """Return everything that is wrong in one document; nothing where it is valid."""
-    try:
-        checked_graph(file)
-    except DocumentError as error:
-        return error.problems
-    return ()
+def problems_of(files: Iterable[Path]) -> list[Problem]:
+    """Return everything that is wrong in documents, each problem once; what they share is not told twice."""
+    catalogue = Catalogue.installed()
+    found: dict[Problem, None] = {}
+    for file in files:
+        try:
+            checked_graph(file, catalogue)
+        except DocumentError as error:
+            found.update(dict.fromkeys(error.problems))
+    return list(found)
 
 
 def _verdict(files: int, problems: int) -> str:

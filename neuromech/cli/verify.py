@@ -21,9 +21,9 @@ def verify(paths: Sequence[Path], as_json: bool, seeds: int | None) -> int:
         MeasureError: a claim is wrong.
     """
     files = document_files(paths)
-    problems = [problem for file in files for problem in problems_of(file)]
+    problems = problems_of(files)
     if problems:
-        raise DocumentError(dict.fromkeys(problems))
+        raise DocumentError(problems)
     plans = [plan(load_document(file), seeds) for file in files]
     with counted(sum(plan.runs() for plan in plans), shown=notes().is_terminal) as progress:
         verdicts = [verdict for plan in plans for verdict in carry_out(plan, progress)]

@@ -1,7 +1,8 @@
 """Every signal of a model: what a run can record, and in which unit it is shown."""
 
+import re
 from collections.abc import Iterable
-from fnmatch import fnmatchcase
+from fnmatch import translate
 
 from neuromech.components.base import Component, Port
 from neuromech.graph.mechanics import inputs, outputs
@@ -29,7 +30,8 @@ def states(graph: ModelGraph) -> dict[str, str]:
 
 def matching(pattern: str, names: Iterable[str]) -> list[str]:
     """Return the names that a pattern matches, in their order; `*` stands for any text, `?` for one character."""
-    return [name for name in names if fnmatchcase(name, pattern)]
+    matches = re.compile(translate(pattern)).match
+    return [name for name in names if matches(name)]
 
 
 def _states(element: Element) -> tuple[Port, ...]:

@@ -140,7 +140,10 @@ def step(annotation: Any, key: str | int, node: Node | None, catalogue: Catalogu
         node: the tree here, which decides between classes.
         catalogue: the vocabulary.
     """
-    shape = shape_of(annotation, catalogue)
+    return _inner(shape_of(annotation, catalogue), key, node, catalogue)
+
+
+def _inner(shape: Shape, key: str | int, node: Node | None, catalogue: Catalogue) -> Any:
     if isinstance(shape, Fields):
         return field_annotation(shape.model, str(key))
     if isinstance(shape, Choice):
@@ -159,7 +162,10 @@ def step(annotation: Any, key: str | int, node: Node | None, catalogue: Catalogu
 
 def narrowed(annotation: Any, node: Node, catalogue: Catalogue) -> Any:
     """Return the annotation that a node is judged by: where a bare value stands for a map, that of its field."""
-    shape = shape_of(annotation, catalogue)
+    return _narrowed(annotation, shape_of(annotation, catalogue), node)
+
+
+def _narrowed(annotation: Any, shape: Shape, node: Node) -> Any:
     if isinstance(shape, Fields) and shape.bare and isinstance(node, ScalarNode):
         return field_annotation(shape.model, shape.bare)
     return annotation
@@ -175,9 +181,10 @@ def model_of(annotation: Any, node: Node | None, catalogue: Catalogue) -> type[B
 
 def typed(node: Node, annotation: Any, catalogue: Catalogue, path: str = "") -> Iterator[tuple[str, Node, Any]]:
     """Yield (path, node, annotation) for all of a tree that the model knows, in authored order."""
-    yield path, node, narrowed(annotation, node, catalogue)
+    shape = shape_of(annotation, catalogue)
+    yield path, node, _narrowed(annotation, shape, node)
     for key, child in _children(node):
-        inner = step(annotation, key, node, catalogue)
+        inner = _inner(shape, key, node, catalogue)
         if inner is not None:
             yield from typed(child, inner, catalogue, f"{path}.{key}" if path else str(key))
 

@@ -13,11 +13,11 @@ from neuromech.spec.shape import Leaf, Names, shape_of, typed
 def check_tree(resolved: Resolved, catalogue: Catalogue) -> Iterator[Problem]:
     """Yield what is wrong with references to parameters and with paths of `--set`."""
     for path, node, annotation in typed(resolved.tree, Experiment, catalogue):
-        shape = shape_of(annotation, catalogue)
         if isinstance(node, ScalarNode) and node.parameter is not None:
+            shape = shape_of(annotation, catalogue)
             if not isinstance(shape, Leaf) or shape.unit is None:
                 yield _no_quantity(node, path)
-        elif isinstance(node, MapNode) and isinstance(shape, Names) and resolved.through:
+        elif isinstance(node, MapNode) and resolved.through and isinstance(shape_of(annotation, catalogue), Names):
             yield from _new_names(node, path, resolved.through)
 
 

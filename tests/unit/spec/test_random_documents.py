@@ -3,9 +3,9 @@
 import re
 
 import pytest
-from conftest import HALF_CENTRE
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from spec_documents import HALF_CENTRE
 
 from neuromech.components.catalogue import Catalogue
 from neuromech.errors import DocumentError

@@ -5,8 +5,8 @@ from pathlib import Path
 from typing import Literal
 
 import pytest
-from conftest import HALF_CENTRE
 from jsonschema import Draft202012Validator
+from spec_documents import HALF_CENTRE
 
 from neuromech.components.catalogue import Catalogue
 from neuromech.components.neurons import RybakInterneuron
