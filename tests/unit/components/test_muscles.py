@@ -36,11 +36,11 @@ def outputs(length, velocity, activation=0.6, flexor=0.3, k=(1.91, 1.8), scale=1
 
 def thesis(length, velocity, activation=0.6, k=1.91, gain=1.2):
     """Equations 1 to 4 as printed."""
-    l, v = length / L_OPT, velocity / L_V
-    s = -5.34 * l**2 + 8.41 * l - 4.7
-    F_l = exp(-(abs((l**2.3 - 1) / 1.26) ** 2.0))
+    relative, v = length / L_OPT, velocity / L_V
+    s = -5.34 * relative**2 + 8.41 * relative - 4.7
+    F_l = exp(-(abs((relative**2.3 - 1) / 1.26) ** 2.0))
     F_v = (-0.69 - 0.17 * v) / (v - 0.69) if v < 0 else (0.18 - s * v) / (v + 0.18)
-    F_p = k * log(exp((l - 1.4) / 0.05) + 1.0) - 0.02 * (exp(-18.7 * (l - 0.3)) - 1.0)
+    F_p = k * log(exp((relative - 1.4) / 0.05) + 1.0) - 0.02 * (exp(-18.7 * (relative - 0.3)) - 1.0)
     return F_MAX * (gain * activation * F_l * F_v + F_p)
 
 
@@ -105,7 +105,7 @@ def test_force_velocity_relation_is_continuous_at_rest(length):
 def test_active_force_ends_where_the_force_velocity_relation_crosses_zero():
     zero = -0.69 / 0.17 * L_V
     assert outputs(L_OPT, 0.999 * zero)[3] > 0.0
-    force, _, damping, active, _ = outputs(L_OPT, 1.001 * zero)
+    _, _, damping, active, _ = outputs(L_OPT, 1.001 * zero)
     assert active == 0.0
     assert damping == 0.0
 
