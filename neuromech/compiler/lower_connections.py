@@ -10,9 +10,9 @@ import networkx as nx
 from neuromech.compiler.buffers import Buffer, Reserve
 from neuromech.compiler.layout import Layout
 from neuromech.compiler.lower_components import Block, follow
-from neuromech.compiler.shape import evaluated_with_body, has_feedthrough
+from neuromech.compiler.shape import argument_names, evaluated_with_body, has_feedthrough
 from neuromech.components.base import Component
-from neuromech.graph.model import ModelGraph
+from neuromech.graph.model import Connection, ModelGraph
 from neuromech.units import Quantity
 
 _ONE = Quantity(1.0)
@@ -104,11 +104,13 @@ def _sorted(graph: ModelGraph, names: set[str]) -> list[str]:
     inner = nx.DiGraph()
     inner.add_nodes_from(sorted(names))
     for sender, receiver, connection in graph.connections("synapse", "wire"):
-        if sender in names and receiver in names and _passes(graph, receiver, connection.port):
+        if sender in names and receiver in names and _passes_at_once(graph, receiver, connection):
             inner.add_edge(sender, receiver)
     return list(nx.lexicographical_topological_sort(inner))
 
 
-def _passes(graph: ModelGraph, receiver: str, port: str) -> bool:
+def _passes_at_once(graph: ModelGraph, receiver: str, connection: Connection) -> bool:
     spec = graph.element(receiver).spec
-    return isinstance(spec, Component) and has_feedthrough(type(spec)) and bool(port)
+    if not isinstance(spec, Component) or spec.output is None or getattr(connection.spec, "delay", 0.0) > 0.0:
+        return False
+    return connection.port in argument_names(spec.output)
