@@ -23,15 +23,16 @@ def folder() -> Path:
     return Path(os.environ.get(ENVIRONMENT_VARIABLE) or platformdirs.user_cache_path("neuromech")) / "steps"
 
 
-def module_file(source: str, classes: Iterable[type[Component]]) -> Path:
+def module_file(source: str, classes: Iterable[type[Component]], files: Iterable[Path] = ()) -> Path:
     """Write the source where it is not there yet, and return its file.
 
     Machine code that numba keeps beside the file does not notice a change in what the file imports, so the name is a
-    hash of the source, of the files of all equations and kernels, and of the versions of numba and NumPy.
+    hash of the source, of the files of all equations and kernels (and of `files`), and of the versions of numba and
+    NumPy.
     """
     digest = hashlib.sha256(source.encode())
-    for file in sorted(_dependencies(classes)):
-        digest.update(file.read_bytes())
+    for dependency in sorted({*_dependencies(classes), *files}):
+        digest.update(dependency.read_bytes())
     digest.update(f"{numba.__version__} {np.__version__} {sys.version}".encode())
     file = folder() / f"step_{digest.hexdigest()[:20]}.py"
     if not file.exists():

@@ -21,24 +21,25 @@ _EXPONENT_BITS = 52
 _EXPONENT_BIAS = 1023
 
 
-@intrinsic  # type: ignore[untyped-decorator]
-def _bits(_context: Any, _value: Any) -> Any:
-    def generate(_context: Any, builder: Any, _signature: Any, arguments: Any) -> Any:
-        return builder.bitcast(arguments[0], ir.IntType(64))
+def _reinterpreted(result: Any, argument: Any, kind: Any) -> Any:
+    """Return what reads the bits of one type as another, in compiled code."""
 
-    return types.int64(types.float64), generate
+    @intrinsic
+    def reinterpret(_context: Any, _value: Any) -> Any:
+        def generate(_context: Any, builder: Any, _signature: Any, arguments: Any) -> Any:
+            return builder.bitcast(arguments[0], kind)
+
+        return result(argument), generate
+
+    return reinterpret
 
 
-@intrinsic  # type: ignore[untyped-decorator]
-def _from_bits(_context: Any, _value: Any) -> Any:
-    def generate(_context: Any, builder: Any, _signature: Any, arguments: Any) -> Any:
-        return builder.bitcast(arguments[0], ir.DoubleType())
-
-    return types.float64(types.int64), generate
+_bits = _reinterpreted(types.int64, types.float64, ir.IntType(64))
+_from_bits = _reinterpreted(types.float64, types.int64, ir.DoubleType())
 
 
 # Sums must not be reordered here: adding and subtracting the rounder is the point.
-@numba.njit(nogil=True, error_model="numpy", fastmath={"contract"}, forceinline=True)  # type: ignore[untyped-decorator]
+@numba.njit(nogil=True, error_model="numpy", fastmath={"contract"}, forceinline=True)
 def exp(x: float) -> float:
     """Return e to the power of x."""
     cut = min(max(x, -_LARGEST), _LARGEST)
@@ -58,10 +59,10 @@ def exp(x: float) -> float:
     q = q * r + 0.5
     q = q * r + 1.0
     q = q * r + 1.0
-    return q * _from_bits((_bits(shifted) + _EXPONENT_BIAS) << _EXPONENT_BITS)
+    return q * float(_from_bits((_bits(shifted) + _EXPONENT_BIAS) << _EXPONENT_BITS))
 
 
-@numba.njit(nogil=True, error_model="numpy", fastmath={"contract"}, forceinline=True)  # type: ignore[untyped-decorator]
+@numba.njit(nogil=True, error_model="numpy", fastmath={"contract"}, forceinline=True)
 def cosh(x: float) -> float:
     """Return the hyperbolic cosine of x."""
     power = exp(x)

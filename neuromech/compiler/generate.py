@@ -98,29 +98,26 @@ def _loop(kind: KindShape, function: Callable[..., Any], part: str) -> Iterator[
 
 
 def _locals(kind: KindShape, function: Callable[..., Any], part: str) -> Iterator[str]:
-    """Yield views of what an equation reads and writes: `view[i]` with i ≥ 0 is what a loop can do several at a time."""
-    name = kind.name
+    """Yield views of what an equation reads and writes: a loop over `view[i]` with i ≥ 0 vectorises."""
+    yield f"count = <{kind.name}.count>  # {kind.name}"
     arguments = argument_names(function)
-    yield f"count = <{name}.count>  # {name}"
-    for buffer, section, members in (("x", "states", kind.cls.states), ("u", "inputs", kind.cls.inputs)):
-        for k, member in enumerate(members):
-            if member.name in arguments:
-                yield f"{member.name} = {buffer}[{_block(f'<{name}.{section}>', k)}]"
-    for argument in arguments:
-        if argument in kind.cls.model_fields:
-            place = f"<{name}.{argument}>"
-            yield f"{argument} = p[{place}]" if argument in kind.uniform else f"{argument} = p[{_block(place, 0)}]"
-    if part == "flow":
-        for k, state in enumerate(kind.cls.states):
-            for target in ("drive", "rate"):
-                yield f"{target}_of_{state.name} = {target}[{_block(f'<{name}.states>', k)}]"
+    states = [(state.name, k) for k, state in enumerate(kind.cls.states)]
+    yield from (f"{name} = x[{_block(kind, 'states', k)}]" for name, k in states if name in arguments)
+    ports = [(port.name, k) for k, port in enumerate(kind.cls.inputs)]
+    yield from (f"{name} = u[{_block(kind, 'inputs', k)}]" for name, k in ports if name in arguments)
+    for name in arguments:
+        if name in kind.cls.model_fields:
+            yield f"{name} = p[{f'<{kind.name}.{name}>' if name in kind.uniform else _block(kind, name, 0)}]"
+    if part == "output":
+        yield from (f"{port.name}_out = s[{_block(kind, 'outputs', k)}]" for k, port in enumerate(kind.cls.outputs))
     else:
-        for k, port in enumerate(kind.cls.outputs):
-            yield f"{port.name}_out = s[{_block(f'<{name}.outputs>', k)}]"
+        for name, k in states:
+            yield from (f"{target}_of_{name} = {target}[{_block(kind, 'states', k)}]" for target in ("drive", "rate"))
 
 
-def _block(start: str, k: int) -> str:
-    """Return the slice of the k-th block of `count` numbers."""
+def _block(kind: KindShape, section: str, k: int) -> str:
+    """Return the slice of the k-th block of `count` numbers of a section."""
+    start = f"<{kind.name}.{section}>"
     first = start + ("" if k == 0 else " + count" if k == 1 else f" + {k} * count")
     return f"{first} : {start} + " + ("count" if k == 0 else f"{k + 1} * count")
 
@@ -135,7 +132,7 @@ def _call(kind: KindShape, function: Callable[..., Any], part: str) -> Iterator[
 
 
 def _argument(kind: KindShape, name: str) -> str:
-    own = {member.name for member in (*kind.cls.states, *kind.cls.inputs)}
+    own = {*(state.name for state in kind.cls.states), *(port.name for port in kind.cls.inputs)}
     if name not in own and name not in kind.cls.model_fields:
         raise TypeError(f"{kind.cls.__qualname__}: '{name}' is no state, input port or parameter")
     return name if name in kind.uniform else f"{name}[i]"

@@ -4,11 +4,19 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from neuromech.compiler import lower_body
 from neuromech.compiler.buffers import Buffer, Reserve
 from neuromech.compiler.cache import module_file
 from neuromech.compiler.generate import generate
 from neuromech.compiler.layout import Layout
+from neuromech.compiler.lower_body import (
+    body_signals,
+    force_slots,
+    joint_parameters,
+    muscle_signals,
+    muscles,
+    paths,
+    structure,
+)
 from neuromech.compiler.lower_components import Block, blocks, parameters, place
 from neuromech.compiler.lower_connections import connections, evaluation_order
 from neuromech.compiler.numerics import Floats
@@ -36,11 +44,11 @@ def lower(graph: ModelGraph) -> Program:
     parts = blocks(graph)
     place(parts, header, layout)
     tree = lower_tree(graph.body) if graph.body else None
-    elements = lower_body.muscles(graph)
+    elements = muscles(graph)
     if tree is not None:
-        lower_body.body_signals(tree, layout, integers, _tracked(graph))
-        lower_body.muscle_signals(elements, layout, header)
-        lower_body.force_slots(elements, layout, integers)
+        body_signals(tree, layout, integers, _tracked(graph))
+        muscle_signals(elements, layout, header)
+        force_slots(elements, layout, integers)
     parameters(parts, floats, layout)
     has_delays = connections(graph, layout, float(solver.step), integers, floats, work)
     evaluation_order(graph, parts, integers)
@@ -100,14 +108,14 @@ def _lower_mechanics(
 ) -> int:
     if body is None or tree is None:
         return 0
-    elements = lower_body.muscles(graph)
+    elements = muscles(graph)
     n, m = len(tree.joints), len(elements)
-    lower_body.joint_parameters(graph, body, layout, floats)
-    lower_body.structure(tree, integers)
+    joint_parameters(graph, body, layout, floats)
+    structure(tree, integers)
     work.add("last_velocity", n)
     work.add("last_torque", n)
     work.add("work", 2 * n * n + n + 2 * m)
-    return lower_body.paths(elements, tree, graph, layout, integers, floats, work)
+    return paths(elements, tree, graph, layout, integers, floats, work)
 
 
 def _record_sections(graph: ModelGraph, layout: Layout, integers: Buffer, tick: float) -> None:
@@ -129,8 +137,8 @@ def recorded(layout: Layout, patterns: Iterable[str], graph: ModelGraph) -> list
 
 def _fixed_step(graph: ModelGraph, has_delays: bool) -> FixedStep:
     method = graph.document.experiment.solver.method
-    if method in ("rk4", "exponential_euler"):
-        return method  # type: ignore[return-value]
+    if method == "rk4" or method == "exponential_euler":
+        return method
     if has_delays:
         hint = "use rk4 or exponential_euler, or remove the delays"
         message = "an adaptive solver cannot run a network with delays"

@@ -8,7 +8,6 @@ from neuromech.compiler.buffers import Buffer, Reserve
 from neuromech.compiler.layout import Layout
 from neuromech.compiler.lower_components import follow
 from neuromech.compiler.tree import SLIDE, Tree
-from neuromech.components.base import Muscle
 from neuromech.components.muscles import ConstantMomentArms, StraightLines
 from neuromech.graph.model import BodyModel, Element, ModelGraph
 from neuromech.units import Quantity
@@ -86,7 +85,7 @@ def paths(
 ) -> int:
     """Write joints, arms and points of every muscle path; return the largest number of points of one path."""
     crossed = [_crossed(element, tree, graph) for element in elements]
-    specs = [element.spec.path for element in elements if isinstance(element.spec, Muscle)]
+    specs = [_path(element) for element in elements]
     integers.add("path_first", _starts(len(joints) for joints in crossed))
     integers.add("path_joint", [tree.joints.index(joint) for joints in crossed for joint in joints])
     integers.add("path_kind", [int(isinstance(path, StraightLines)) for path in specs])
@@ -102,6 +101,13 @@ def paths(
                 start += 1
     work.add("arms", sum(len(joints) for joints in crossed))
     return max((len(some) for some in points), default=0)
+
+
+def _path(element: Element) -> ConstantMomentArms | StraightLines:
+    path = getattr(element.spec, "path", None)
+    if not isinstance(path, ConstantMomentArms | StraightLines):
+        raise TypeError(f"muscle '{element.name}' has no path of a kind that can be lowered")
+    return path
 
 
 def _crossed(element: Element, tree: Tree, graph: ModelGraph) -> list[str]:

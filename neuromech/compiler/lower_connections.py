@@ -52,8 +52,8 @@ def _inputs(graph: ModelGraph, layout: Layout) -> Iterable[_Input]:
         yield _Input(row, sender, f"{sender}.{connection.output}", weight, delay, path)
     for element in graph.elements("muscle"):
         for port in ("length", "velocity"):
-            row = layout.inputs.get(f"{element.name}.{port}")
-            if row is not None:
+            if f"{element.name}.{port}" in layout.inputs:
+                row = layout.inputs[f"{element.name}.{port}"]
                 yield _Input(row, element.name, f"{element.name}.{port}", _ONE, 0.0, element.path)
 
 

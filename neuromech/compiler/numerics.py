@@ -43,7 +43,7 @@ def relaxed(value: float, drive: float, rate: float, dt: float) -> float:
     exponent = rate * dt
     if abs(exponent) < 1e-8:
         return value + dt * (drive - rate * value)
-    return value + (drive / rate - value) * -np.expm1(-exponent)
+    return value - (drive / rate - value) * float(np.expm1(-exponent))
 
 
 @equation

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from itertools import pairwise
 
 from neuromech.compiler.buffers import Buffer
 from neuromech.compiler.layout import Layout
@@ -64,7 +65,7 @@ def _breakpoints(initial: float, changes: Iterable[_Change]) -> list[tuple[float
 
 def _overlaps(document: Document, driven: dict[str, list[_Change]]) -> Iterator[Problem]:
     for name, changes in driven.items():
-        for earlier, later in zip(changes, changes[1:], strict=False):
+        for earlier, later in pairwise(changes):
             if later.start < earlier.end:
                 message = f"changes parameter '{name}' while {earlier.path} still does, until {earlier.end:g} s"
                 yield document.problem("overlapping-changes", later.path, message, f"a start at {later.start:g} s")

@@ -1,7 +1,7 @@
 """When a body counts as fallen."""
 
 from dataclasses import dataclass
-from math import acos, degrees, inf
+from math import acos, cos, degrees, inf, pi
 from typing import Self
 
 from neuromech.compiler.body_state import BodyState
@@ -23,6 +23,11 @@ class FallRule:
         height = -inf if fall is None or fall.height is None else float(fall.height)
         tilt = inf if fall is None or fall.tilt is None else float(fall.tilt)
         return cls(height, tilt, layout)
+
+    @property
+    def least_cosine(self) -> float:
+        """Cosine of the largest tilt; below −1 where any tilt will do."""
+        return cos(self.tilt) if self.tilt < pi else -2.0
 
     def broken(self, state: Floats) -> str:
         """Return in words what of the rule the body state breaks, or nothing."""

@@ -23,9 +23,7 @@ class Recorder:
         self._program = program
         self._ticks = ticks
         groups = program.graph.document.experiment.record
-        self._names = {
-            name: recorded(program.layout, group.signals, program.graph) for name, group in groups.items()
-        }
+        self._names = {name: recorded(program.layout, group.signals, program.graph) for name, group in groups.items()}
         self._every = {name: round(float(group.every) / program.tick) for name, group in groups.items()}
         start = 0
         self._start: dict[str, int] = {}
@@ -62,5 +60,5 @@ class Recorder:
         names, rows = self._names[name], self._rows(name, ticks)
         start = self._start[name]
         values = self.samples[start : start + rows * len(names)].reshape(rows, len(names))
-        time = np.arange(rows) * (self._every[name] * self._program.tick)
+        time = np.arange(rows, dtype=np.float64) * (self._every[name] * self._program.tick)
         return GroupData(time, tuple(names), values, tuple(si_unit(units[signal]) for signal in names))

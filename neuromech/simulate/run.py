@@ -1,16 +1,20 @@
 """Time: the loop that steps network and body, records, and ends with an outcome."""
 
+import itertools
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from neuromech.bodies.base import Body
 from neuromech.bodies.factory import open_body
+from neuromech.compiler.numerics import Floats
 from neuromech.compiler.program import Memory, Program
 from neuromech.errors import RunError
 from neuromech.simulate.adaptive import breakpoints, integrate, is_adaptive
+from neuromech.simulate.compiled_loop import BAD_STATE, BAD_TORQUE, FELL, compiled_loop
 from neuromech.simulate.fall import FallRule
 from neuromech.simulate.initial import initial_states
 from neuromech.simulate.recorder import Recorder
@@ -39,6 +43,9 @@ class _Run:
     def report(self) -> None:
         if self.progress is not None:
             self.progress(self.now)
+
+    def bad_torque(self, joint: str) -> Outcome:
+        return Outcome("diverged", self.now, f"the torque at joint {joint} is not a finite number any more")
 
     def bad_state(self, position: int) -> Outcome:
         name = next(name for name, place in self.program.layout.states.items() if place == position)
@@ -91,23 +98,32 @@ def _network(run: _Run) -> Outcome | None:
 
 def _network_fixed(run: _Run) -> Outcome | None:
     advance = run.program.module.run
-    chunk = 1
+
+    def chunk(last: int) -> Outcome | None:
+        run.done, bad = advance(run.done, last, run.program.tick, *run.memory.buffers, run.recorder.samples)
+        return run.bad_state(bad) if bad >= 0 else None
+
+    return _in_chunks(run, chunk)
+
+
+def _in_chunks(run: _Run, chunk: Callable[[int], Outcome | None]) -> Outcome | None:
+    """Call `chunk` with the tick to reach, again and again, in pieces short enough to report and to be interrupted."""
+    length = 1
     while run.done < run.ticks:
         started = time.perf_counter()
-        last = min(run.done + chunk, run.ticks)
-        run.done, bad = advance(run.done, last, run.program.tick, *run.memory.buffers, run.recorder.samples)
-        if bad >= 0:
-            return run.bad_state(bad)
+        ended = chunk(min(run.done + length, run.ticks))
+        if ended is not None:
+            return ended
         run.report()
-        spent = time.perf_counter() - started
-        chunk = max(1, min(100_000, int(chunk * _SECONDS_BETWEEN_REPORTS / max(spent, 1e-6)), chunk * 10))
+        spent = max(time.perf_counter() - started, 1e-6)
+        length = max(1, min(int(length * _SECONDS_BETWEEN_REPORTS / spent), length * 10))
     return None
 
 
 def _network_adaptive(run: _Run) -> Outcome | None:
     tick, memory = run.program.tick, run.memory
     marks = breakpoints(run.program, run.ticks * tick)
-    for start, end in zip(marks, marks[1:], strict=False):
+    for start, end in itertools.pairwise(marks):
         first, last = round(start / tick), round(end / tick)
         states = integrate(run.program, memory, np.linspace(start, end, last - first + 1))
         for row in range(last - first):
@@ -129,34 +145,64 @@ def _with_body(run: _Run) -> tuple[Outcome, str]:
 
 
 def _body_loop(run: _Run, body: Body) -> Outcome | None:
+    """Step a body with the compiled functions of its engine where there are any, else through its methods."""
+    body.read(_body_state(run, body))
+    run.program.module.begin(*run.memory.buffers)
+    native = None if is_adaptive(run.program) else body.native()
+    if native is None or body.native_module is None:
+        return _method_loop(run, body)
+    return _native_loop(run, body, body.native_module, native)
+
+
+def _body_state(run: _Run, body: Body) -> Floats:
+    return run.memory.s[run.program.header["body"] :][: body.layout.size]
+
+
+def _native_loop(run: _Run, body: Body, native_module: str, native: tuple[Any, ...]) -> Outcome | None:
+    memory, dt = run.memory, run.program.tick
+    fall = FallRule.of(run.program.graph.document.experiment.protocol.fall, body.layout)
+    advance = compiled_loop(run.program, native_module).run
+    rest = (*memory.buffers, run.recorder.samples, memory.T, memory.D, native, fall.height, fall.least_cosine)
+
+    def chunk(last: int) -> Outcome | None:
+        run.done, why, position = advance(run.done, last, dt, *rest)
+        if why == BAD_TORQUE:
+            return run.bad_torque(body.joints[position])
+        if why == FELL:
+            return Outcome("fell", run.now, fall.broken(_body_state(run, body)))
+        if why == BAD_STATE:
+            return run.bad_state(position)
+        body.check()
+        return None
+
+    return _in_chunks(run, chunk)
+
+
+def _method_loop(run: _Run, body: Body) -> Outcome | None:
     program, memory = run.program, run.memory
-    state = memory.s[program.header["body"] :][: body.layout.size]
+    state = _body_state(run, body)
     torque = memory.s[program.header["torque"] :][: body.layout.joints]
     fall = FallRule.of(program.graph.document.experiment.protocol.fall, body.layout)
-    buffers, kinematics = memory.buffers, (memory.T, memory.D)
-    samples, dt = run.recorder.samples, program.tick
+    rest = (*memory.buffers, run.recorder.samples, memory.T, memory.D)
     advance = _adaptive_advance(program, memory) if is_adaptive(program) else program.module.advance
-    reported = time.perf_counter()
-    body.read(state)
-    program.module.begin(*buffers)
-    for number in range(run.ticks):
-        body.read(state)
-        bad = program.module.tick(number, dt, *buffers, samples, *kinematics)
-        if bad >= 0:
-            return Outcome("diverged", run.now, f"the torque at joint {body.joints[bad]} is not a finite number any more")
-        fallen = fall.broken(state)
-        if fallen:
-            return Outcome("fell", run.now, fallen)
-        bad = advance(number, dt, *buffers)
-        if bad >= 0:
-            return run.bad_state(bad)
-        body.step(torque)
-        run.done = number + 1
-        if time.perf_counter() - reported > _SECONDS_BETWEEN_REPORTS:
-            run.report()
-            reported = time.perf_counter()
-    run.report()
-    return None
+
+    def chunk(last: int) -> Outcome | None:
+        for number in range(run.done, last):
+            body.read(state)
+            bad = program.module.tick(number, program.tick, *rest)
+            if bad >= 0:
+                return run.bad_torque(body.joints[bad])
+            fallen = fall.broken(state)
+            if fallen:
+                return Outcome("fell", run.now, fallen)
+            bad = advance(number, program.tick, *memory.buffers)
+            if bad >= 0:
+                return run.bad_state(bad)
+            body.step(torque)
+            run.done = number + 1
+        return None
+
+    return _in_chunks(run, chunk)
 
 
 def _adaptive_advance(program: Program, memory: Memory) -> Callable[..., int]:

@@ -1,0 +1,58 @@
+"""The loop over body steps for engines with compiled functions: reading, stepping and recording without Python."""
+
+import importlib
+from pathlib import Path
+from types import ModuleType
+
+from neuromech.compiler.cache import import_file, module_file
+from neuromech.compiler.program import Program
+
+FINISHED, BAD_TORQUE, FELL, BAD_STATE, ENGINE_FAILED = range(5)
+
+_SOURCE = '''"""Generated loop for {native} around {step}."""
+
+from {native} import read, step
+from {step} import BODY, CONTACTS, JOINTS, TORQUE, advance, tick
+
+from neuromech.compiler.numerics import compiled
+
+
+@compiled
+def run(first, last, dt, x, s, u, p, F, I, R, T, D, engine, lowest, least_cosine):
+    """Advance from body step `first` to `last`; return the step reached, why it ended, and which number is bad."""
+    n, body = I[JOINTS], I[BODY]
+    state = s[body : body + 2 * n + 13 + 3 * I[CONTACTS]]
+    torque = s[I[TORQUE] : I[TORQUE] + n]
+    for number in range(first, last):
+        if read(engine, state) != 0:
+            return number, {failed}, 0
+        bad = tick(number, dt, x, s, u, p, F, I, R, T, D)
+        if bad >= 0:
+            return number, {torque}, bad
+        tilt = 1.0 - 2.0 * (state[2 * n + 3] ** 2 + state[2 * n + 4] ** 2)
+        if state[2 * n + 2] < lowest or tilt < least_cosine:
+            return number, {fell}, 0
+        bad = advance(number, dt, x, s, u, p, F, I)
+        if bad >= 0:
+            return number, {state}, bad
+        if step(engine, torque) != 0:
+            return number, {failed}, 0
+    return last, {finished}, 0
+'''
+
+
+def compiled_loop(program: Program, native_module: str) -> ModuleType:
+    """Return the module whose `run` steps a program with the compiled functions of an engine."""
+    step = program.module.__name__
+    source = _SOURCE.format(
+        native=native_module,
+        step=step,
+        finished=FINISHED,
+        torque=BAD_TORQUE,
+        fell=FELL,
+        state=BAD_STATE,
+        failed=ENGINE_FAILED,
+    )
+    engine = importlib.import_module(native_module)
+    file = module_file(source, [kind.cls for kind in program.shape.kinds], [Path(str(engine.__file__))])
+    return import_file(file)
