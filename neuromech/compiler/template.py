@@ -39,6 +39,13 @@ def remember(step, s, F, I):
 
 
 @equation
+def fill_history(s, F, I):
+    """Write the signals of now into the whole ring."""
+    for step in range(<history_length>):
+        remember(step, s, F, I)
+
+
+@equation
 def stage(x, s, u, p, F, I, drive, rate, step, fraction):
     """Evaluate the network at one state: signals, inputs, drive and rate of every state."""
     if <delays>:
@@ -105,8 +112,9 @@ def first_bad(x):
 
 
 @compiled
-def sample(tick, x, s, u, p, F, I, R):
+def sample(tick, dt, x, s, u, p, F, I, R):
     """Record the network at a state that was found elsewhere."""
+    apply_protocol(tick * dt, p, I)
     network_outputs(x, s, u, p, F, I)
     network_inputs(s, u, p, F, I)
     record(tick, x, s, u, I, R)
@@ -114,13 +122,15 @@ def sample(tick, x, s, u, p, F, I, R):
 
 @compiled
 def begin(x, s, u, p, F, I):
-    """Evaluate everything once at time zero, so that delay lines start filled."""
+    """Fill the delay lines as if the first state had always been; each pass reaches one delay further."""
     apply_protocol(0.0, p, I)
     for row in range(<inputs>):
         F[<base> + row] = 0.0
-    network_outputs(x, s, u, p, F, I)
-    for step in range(<history_length>):
-        remember(step, s, F, I)
+    for _ in range(1 + <history_width>):
+        network_outputs(x, s, u, p, F, I)
+        fill_history(s, F, I)
+        if <delays>:
+            delayed_inputs(0, 0.0, p, F, I)
 '''
 
 RK4 = '''
@@ -178,6 +188,8 @@ def run(first, last, dt, x, s, u, p, F, I, R):
     """Advance from step `first` to step `last`; return the step reached and the position of a bad state or −1."""
     for step in range(first, last):
         apply_protocol(step * dt, p, I)
+        if <delays>:
+            delayed_inputs(step, 0.0, p, F, I)
         network_outputs(x, s, u, p, F, I)
         network_inputs(s, u, p, F, I)
         record(step, x, s, u, I, R)
@@ -299,6 +311,18 @@ def torques(dt, x, s, u, p, F, I, T, D):
     last_velocity[:] = velocity
 
 
+@equation
+def present(step, x, s, u, p, F, I, T, D):
+    """Evaluate all signals of one instant; what sensors tell reaches muscles through units without memory at once."""
+    if <delays>:
+        delayed_inputs(step, 0.0, p, F, I)
+    network_outputs(x, s, u, p, F, I)
+    mechanics(x, s, u, p, F, I, T, D)
+    if <network_ordered>:
+        evaluate_network(x, s, u, p, F, I)
+        evaluate_mechanics(x, s, u, p, F, I)
+
+
 @compiled
 def tick(number, dt, x, s, u, p, F, I, R, T, D):
     """One body step but for the body: the state read from it stands in s, the torque to apply is left there.
@@ -306,8 +330,13 @@ def tick(number, dt, x, s, u, p, F, I, R, T, D):
     Returns the position of a joint whose torque is not finite, or −1.
     """
     apply_protocol(number * dt, p, I)
-    network_outputs(x, s, u, p, F, I)
-    mechanics(x, s, u, p, F, I, T, D)
+    passes = 1
+    if <delays> and number == 0:
+        passes += <history_width>
+    for k in range(passes):
+        present(number * <substeps>, x, s, u, p, F, I, T, D)
+        if k < passes - 1:
+            fill_history(s, F, I)
     network_inputs(s, u, p, F, I)
     torques(dt, x, s, u, p, F, I, T, D)
     record(number, x, s, u, I, R)

@@ -1,6 +1,7 @@
 """SciPy's solvers through the same compiled derivative as the fixed-step methods."""
 
 from collections.abc import Callable
+from math import ceil
 
 import numpy as np
 from scipy.integrate import solve_ivp
@@ -17,19 +18,30 @@ def is_adaptive(program: Program) -> bool:
     return program.graph.document.experiment.solver.method in _SCIPY_NAMES
 
 
-def integrate(program: Program, memory: Memory, times: Floats) -> Floats:
-    """Integrate the network from `memory.x` at times[0]; return the states at all times, shape (len(times), states).
+def integrate(program: Program, memory: Memory, start: float, end: float, times: Floats | None = None) -> Floats:
+    """Integrate the network from `memory.x` over an interval in which every parameter moves smoothly.
+
+    Args:
+        program: from `lower`.
+        memory: its buffers; `x` holds the states at the start.
+        start: s.
+        end: s. What a parameter becomes at the end belongs to the next interval.
+        times: of the interval (s), increasing, the end not among them; none where not given.
+
+    Returns:
+        The states at these times and, last, at the end; shape (times + 1, states).
 
     Raises:
         RunError: the solver gave up; its message is passed on.
     """
     solver = program.graph.document.experiment.solver
+    inner = np.empty(0) if times is None else np.clip(times, start, end)
     found = solve_ivp(
-        _derivative(program, memory),
-        (times[0], times[-1]),
+        _derivative(program, memory, float(np.nextafter(end, start))),
+        (start, end),
         memory.x.copy(),
         method=_SCIPY_NAMES[solver.method],
-        t_eval=times,
+        t_eval=np.append(inner, end),
         rtol=float(solver.relative_tolerance),
         atol=float(solver.absolute_tolerance),
     )
@@ -46,13 +58,18 @@ def breakpoints(program: Program, end: float) -> list[float]:
     return [0.0, *sorted(time for time in inner if 0.0 < time < end), end]
 
 
-def _derivative(program: Program, memory: Memory) -> Callable[[float, Floats], Floats]:
+def ticks_from(time: float, tick: float) -> int:
+    """Return the number of the first tick at a time or after it, both in s; rounding errors of clocks are forgiven."""
+    return ceil(time / tick * (1.0 - 1e-12))
+
+
+def _derivative(program: Program, memory: Memory, latest: float) -> Callable[[float, Floats], Floats]:
     compiled = program.module.derivative
     _, s, u, p, work, offsets = memory.buffers
 
     def derivative(t: float, x: Floats) -> Floats:
         slope = np.empty_like(x)
-        compiled(t, x, slope, s, u, p, work, offsets)
+        compiled(min(t, latest), x, slope, s, u, p, work, offsets)
         return slope
 
     return derivative

@@ -13,7 +13,7 @@ from neuromech.bodies.factory import open_body
 from neuromech.compiler.numerics import Floats
 from neuromech.compiler.program import Memory, Program
 from neuromech.errors import RunError
-from neuromech.simulate.adaptive import breakpoints, integrate, is_adaptive
+from neuromech.simulate.adaptive import breakpoints, integrate, is_adaptive, ticks_from
 from neuromech.simulate.compiled_loop import BAD_STATE, BAD_TORQUE, FELL, compiled_loop
 from neuromech.simulate.fall import FallRule
 from neuromech.simulate.initial import initial_states
@@ -124,11 +124,11 @@ def _network_adaptive(run: _Run) -> Outcome | None:
     tick, memory = run.program.tick, run.memory
     marks = breakpoints(run.program, run.ticks * tick)
     for start, end in itertools.pairwise(marks):
-        first, last = round(start / tick), round(end / tick)
-        states = integrate(run.program, memory, np.linspace(start, end, last - first + 1))
+        first, last = ticks_from(start, tick), ticks_from(end, tick)
+        states = integrate(run.program, memory, start, end, np.arange(first, last) * tick)
         for row in range(last - first):
             memory.x[:] = states[row]
-            run.program.module.sample(first + row, *memory.buffers, run.recorder.samples)
+            run.program.module.sample(first + row, tick, *memory.buffers, run.recorder.samples)
         memory.x[:] = states[-1]
         run.done = last
         run.report()
@@ -207,7 +207,7 @@ def _method_loop(run: _Run, body: Body) -> Outcome | None:
 
 def _adaptive_advance(program: Program, memory: Memory) -> Callable[..., int]:
     def advance(number: int, dt: float, *_buffers: object) -> int:
-        memory.x[:] = integrate(program, memory, np.array([number * dt, (number + 1) * dt]))[-1]
+        memory.x[:] = integrate(program, memory, number * dt, (number + 1) * dt)[-1]
         return int(program.module.first_bad(memory.x))
 
     return advance
