@@ -76,7 +76,8 @@ class Memory:
         self.I = program.integers.copy()
         if program.tree is not None:
             self.T, self.D = _kinematics(program.tree, program.path_points)
-            self.F[program.header["last_torque"]] = np.nan
+            first = program.header["last_torque"]
+            self.F[first : first + len(program.tree.joints)] = np.nan
 
     @property
     def buffers(self) -> tuple[Floats, Floats, Floats, Floats, Floats, Integers]:

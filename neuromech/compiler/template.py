@@ -303,7 +303,7 @@ def torques(dt, x, s, u, p, F, I, T, D):
     mass_matrix(T[0], T[1], <root>, D[0], D[1], D[7], mass)
     last_velocity = F[<last_velocity> : <last_velocity> + n]
     last_torque = F[<last_torque> : <last_torque> + n]
-    if np.isnan(last_torque[0]):
+    if n > 0 and np.isnan(last_torque[0]):
         last_torque[:] = torque
         last_velocity[:] = velocity
     observer_implicit(dt, mass, damping, torque, velocity, last_velocity, last_torque, acceleration)
