@@ -6,6 +6,7 @@ from neuromech.errors import DocumentError, Problem
 from neuromech.graph.checks.body import (
     angle_outside_range,
     contact_without_ground,
+    engine_refusal,
     hinge_engine,
     hinge_engine_knows_no_contact,
     inertia_of_no_body,
@@ -47,6 +48,7 @@ RULES: tuple[Rule, ...] = (
     *VALUE_RULES,
     hinge_engine,
     hinge_engine_knows_no_contact,
+    engine_refusal,
     synapse_defined_twice,
     port_missing,
     unit_clash,

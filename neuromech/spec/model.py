@@ -165,7 +165,7 @@ class Root(SpecModel):
 class Body(BodyParts):
     """The body and the engine that moves it. With `file`, segments and joints come from a URDF or SDF file."""
 
-    engine: Literal["hinge", "pybullet"] = "pybullet"
+    engine: Literal["hinge", "pybullet", "mujoco"] = "pybullet"
     file: str | None = None
     root: Root = Root()
 

@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from math import degrees
 
 from neuromech.errors import Problem
+from neuromech.graph.engines import refusals
 from neuromech.graph.model import Element, ModelGraph
 from neuromech.spec.model import Joint, Segment
 
@@ -68,7 +69,7 @@ def hinge_engine(graph: ModelGraph) -> Iterator[Problem]:
     if kinds != ["hinge"] or body.root.kind != "fixed":
         message = "needs exactly one hinge joint on a fixed root"
         got = f"{len(kinds)} joints ({', '.join(kinds)}) on a {body.root.kind} root"
-        hint = "engine 'pybullet' moves any tree"
+        hint = "engines 'pybullet' and 'mujoco' move any tree"
         yield graph.document.problem("hinge-engine", "body.engine", message, got, hint)
 
 
@@ -76,8 +77,19 @@ def hinge_engine_knows_no_contact(graph: ModelGraph) -> Iterator[Problem]:
     """The engine `hinge` moves its joint exactly and knows no ground."""
     if graph.body is not None and graph.body.engine == "hinge":
         for element in graph.elements("contact"):
-            hint = "use engine 'pybullet', or remove the contact"
+            hint = "use engine 'pybullet' or 'mujoco', or remove the contact"
             yield graph.document.problem("hinge-engine", element.path, "engine 'hinge' knows no contacts", hint=hint)
+
+
+def engine_refusal(graph: ModelGraph) -> Iterator[Problem]:
+    """The engine knows everything that is written of joints, contacts and the root."""
+    body = graph.body
+    if body is None or body.engine == "hinge":
+        return
+    for refusal in refusals(body, body.engine):
+        path = graph.element(refusal.element).path if refusal.element else "body.root"
+        place = f"{path}.{refusal.field}"
+        yield graph.document.problem("unknown-to-engine", place, refusal.message, hint=refusal.hint)
 
 
 def _joints(graph: ModelGraph) -> Iterator[tuple[Element, Joint]]:

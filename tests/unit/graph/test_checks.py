@@ -115,11 +115,11 @@ def test_hinge_engine_moves_one_joint_without_contacts(raw):
     assert without_marks(raw) == [
         *(
             f"instances.{leg}.body.contacts.foot  engine 'hinge' knows no contacts. "
-            "Hint: use engine 'pybullet', or remove the contact"
+            "Hint: use engine 'pybullet' or 'mujoco', or remove the contact"
             for leg in ("LF", "RF")
         ),
         "body.engine  needs exactly one hinge joint on a fixed root (got 4 joints (hinge, hinge, hinge, hinge) on a "
-        "free root). Hint: engine 'pybullet' moves any tree",
+        "free root). Hint: engines 'pybullet' and 'mujoco' move any tree",
     ]
 
 

@@ -1,0 +1,114 @@
+"""Bodies moved by MuJoCo. Every body owns a model and its data."""
+
+from collections.abc import Sequence
+from importlib.metadata import version
+from typing import Any, ClassVar
+
+import numpy as np
+
+from neuromech.bodies import mujoco_native
+from neuromech.bodies.base import Body, Engine, Floats, root_quaternion
+from neuromech.bodies.mujoco_world import build_model, load_mujoco, step_address
+from neuromech.compiler.body_state import BodyState
+from neuromech.compiler.tree import FREE_ROOT, PLANAR_ROOT, lower_tree
+from neuromech.errors import RunError
+from neuromech.graph.model import BodyModel
+
+
+class MujocoBody(Body):
+    """A body in a MuJoCo world of its own."""
+
+    native_module: ClassVar[str | None] = mujoco_native.__name__
+
+    def __init__(self, body: BodyModel, step: float) -> None:
+        """Compile the model.
+
+        Args:
+            body: the body.
+            step: in seconds.
+
+        Raises:
+            DocumentError: MuJoCo cannot move this body.
+            MissingExtraError: MuJoCo is not installed.
+        """
+        self._mujoco = load_mujoco()
+        self._model = build_model(self._mujoco, body, step)
+        self._data: Any = self._mujoco.MjData(self._model)
+        self.joints = tuple(body.joints)
+        self.contacts = tuple(body.contacts)
+        self.step_seconds = step
+        self.engine = Engine("mujoco", version("mujoco"))
+        self.layout = BodyState(len(body.joints), len(body.contacts))
+        joints = [self._model.joint(name) for name in self.joints]
+        places = [[joint.qposadr[0] for joint in joints], [joint.dofadr[0] for joint in joints]]
+        self._root_start = _root_start(body)
+        self._engine = self._views(body, np.array(places, dtype=np.int64).reshape(2, -1))
+        self.reset([float(joint.initial_angle) for joint in body.joints.values()])
+
+    def read(self, state: Floats) -> None:
+        """Fill the state array."""
+        mujoco_native.read(self._opened(), state)
+
+    def step(self, torque: Floats) -> None:
+        """Apply joint torques and advance by one step."""
+        _, _, places, _, _, applied, _, warnings = self._opened()
+        applied[places[1]] = torque
+        self._mujoco.mj_step(self._model, self._data)
+        if warnings.any():
+            self.check()
+
+    def check(self) -> None:
+        """Raise the first kind of warning of MuJoCo."""
+        *_, warnings = self._opened()
+        for kind in np.flatnonzero(warnings):
+            info = int(self._data.warning.lastinfo[kind])
+            raise RunError(f"MuJoCo failed: {self._mujoco.mju_warningText(int(kind), info)}")
+
+    def reset(self, angles: Sequence[float] | Floats, velocities: Sequence[float] | Floats | None = None) -> None:
+        """Make the data new and put the joints as told."""
+        _, _, places, positions, speeds, *_ = self._opened()
+        self._mujoco.mj_resetData(self._model, self._data)
+        positions[: len(self._root_start)] = self._root_start
+        positions[places[0]] = angles
+        if velocities is not None:
+            speeds[places[1]] = velocities
+
+    def native(self) -> tuple[Any, ...] | None:
+        """Return the views that `neuromech.bodies.mujoco_native` works on, None where `mj_step` has no address."""
+        engine = self._opened()
+        return engine if engine[0][0] else None
+
+    def close(self) -> None:
+        """Free the data."""
+        self._data = None
+        self._engine = ()
+
+    def _opened(self) -> tuple[Any, ...]:
+        if self._data is None:
+            raise RunError("the body is closed")
+        return self._engine
+
+    def _views(self, body: BodyModel, places: Any) -> tuple[Any, ...]:
+        data = self._data
+        addresses = (step_address(self._mujoco) or 0, self._model._address, data._address)
+        pose = (*map(float, body.root.position), *root_quaternion(body.root))
+        return (
+            np.array(addresses, dtype=np.int64),
+            np.array([float(lower_tree(body).root), *pose]),
+            places,
+            data.qpos,
+            data.qvel,
+            data.qfrc_applied,
+            data.sensordata if body.world.ground is not None else np.zeros(3 * len(body.contacts)),
+            data.warning.number,
+        )
+
+
+def _root_start(body: BodyModel) -> tuple[float, ...]:
+    # The first entries of MuJoCo's qpos.
+    x, y, z = map(float, body.root.position)
+    root = lower_tree(body).root
+    if root == FREE_ROOT:
+        a, b, c, w = root_quaternion(body.root)
+        return (x, y, z, w, a, b, c)
+    return (x, z, float(body.root.orientation[1])) if root == PLANAR_ROOT else ()

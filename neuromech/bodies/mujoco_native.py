@@ -1,0 +1,79 @@
+"""Reading and stepping a MuJoCo body from compiled code, without allocation.
+
+`engine` is what `MujocoBody.native` returns:
+
+    addresses: (3,) of the C function `mj_step`, the model and the data.
+    root: (8,) how many ways the root moves, see `neuromech.compiler.tree`; then the pose that it starts with.
+    places: (2, joints) where each joint stands in `positions` and in `velocities`.
+    positions, velocities, applied: MuJoCo's qpos, qvel and qfrc_applied.
+    forces: (3 contacts,) forces of the ground.
+    warnings: how often MuJoCo warned, by kind.
+"""
+
+from math import cos, sin
+from typing import Any
+
+import numba
+
+from neuromech.compiler.foreign import ADDRESS, NOTHING, foreign_function
+from neuromech.compiler.numerics import Floats
+from neuromech.compiler.tree import FREE_ROOT, PLANAR_ROOT
+
+_call = foreign_function(NOTHING, ADDRESS, ADDRESS)
+# As written, without fast mathematics: the same bits whatever these functions are inlined into.
+_exactly = numba.njit(cache=True, nogil=True, error_model="numpy")
+
+
+@_exactly  # type: ignore[untyped-decorator]
+def read(engine: tuple[Any, ...], state: Floats) -> int:
+    """Fill the state array; (2 n + 13 + 3 m,), see `BodyState`. Returns 0."""
+    _, root, places, positions, velocities, _, forces, _ = engine
+    n = places.shape[1]
+    for joint in range(n):
+        state[joint] = positions[places[0, joint]]
+        state[n + joint] = velocities[places[1, joint]]
+    pose, velocity = state[2 * n : 2 * n + 7], state[2 * n + 7 : 2 * n + 13]
+    if root[0] == FREE_ROOT:
+        _read_free_root(positions, velocities, pose, velocity)
+    else:
+        pose[:] = root[1:]
+        velocity[:] = 0.0
+        if root[0] == PLANAR_ROOT:
+            _read_planar_root(positions, velocities, pose, velocity)
+    state[2 * n + 13 :] = forces
+    return 0
+
+
+@_exactly  # type: ignore[untyped-decorator]
+def step(engine: tuple[Any, ...], torque: Floats) -> int:
+    """Apply joint torques (joints,) and advance by one step. Returns the number of warnings, 0 where all is well."""
+    addresses, _, places, _, _, applied, _, warnings = engine
+    for joint in range(places.shape[1]):
+        applied[places[1, joint]] = torque[joint]
+    _call(addresses[0], (addresses[1], addresses[2]))
+    total = 0
+    for kind in range(warnings.shape[0]):
+        total += warnings[kind]
+    return total
+
+
+@_exactly  # type: ignore[untyped-decorator]
+def _read_planar_root(positions: Floats, velocities: Floats, pose: Floats, velocity: Floats) -> None:
+    pose[0], pose[2] = positions[0], positions[1]
+    pose[4], pose[6] = sin(positions[2] / 2.0), cos(positions[2] / 2.0)
+    velocity[0], velocity[2], velocity[4] = velocities[0], velocities[1], velocities[2]
+
+
+@_exactly  # type: ignore[untyped-decorator]
+def _read_free_root(positions: Floats, velocities: Floats, pose: Floats, velocity: Floats) -> None:
+    pose[:3] = positions[:3]
+    pose[3:6] = positions[4:7]
+    pose[6] = positions[3]
+    velocity[:3] = velocities[:3]
+    # MuJoCo gives the angular velocity in the segment's axes.
+    x, y, z, w = pose[3], pose[4], pose[5], pose[6]
+    a, b, c = velocities[3], velocities[4], velocities[5]
+    d, e, f = 2.0 * (y * c - z * b), 2.0 * (z * a - x * c), 2.0 * (x * b - y * a)
+    velocity[3] = a + w * d + y * f - z * e
+    velocity[4] = b + w * e + z * d - x * f
+    velocity[5] = c + w * f + x * e - y * d
