@@ -1,8 +1,8 @@
 """Every snippet of the documentation does what the text says.
 
 In each Markdown file the blocks are executed in order, in one temporary folder: `<!-- file: name.yaml -->` before a
-block writes it to a file; whole documents are run for a few steps unless the comment says `broken`; `python` blocks are
-executed; `console` blocks run each `$ neuromech …` line and compare the output that is shown, where `...` stands for
+block writes it to a file; whole documents are run for a few steps unless the comment says `broken`; `python` blocks without
+a file are executed; `console` blocks run each `$ neuromech …` line and compare the output that is shown, where `...` stands for
 any text.
 """
 
@@ -76,25 +76,25 @@ def execute(snippet: Snippet, namespace: dict[str, object]) -> None:
         file = Path(snippet.file or "snippet.yaml")
         file.write_text(snippet.text, encoding="utf-8")
         assert run(file, duration=0.005).outcome.kind == "finished"
-    elif snippet.language == "python":
+    elif snippet.language == "python" and not snippet.file:
         exec(compile(snippet.text, f"line {snippet.line}", "exec"), namespace)
     elif snippet.language == "console":
         for command, expected in commands(snippet.text):
             if command.startswith("neuromech "):
                 got = output_of(command)
-                assert not expected.strip() or matches(expected, got), f"$ {command}\n{got}"
+                if expected.strip() and not matches(expected, got):
+                    raise AssertionError(f"this is shown:\n$ {command}\n{expected}\nbut this comes out:\n{got}")
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.relative_to(ROOT).as_posix())
 def test_every_snippet_does_what_the_page_says(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     monkeypatch.chdir(tmp_path)
+    monkeypatch.syspath_prepend(tmp_path)
     monkeypatch.setenv("COLUMNS", "200")
     namespace: dict[str, object] = {"__name__": "snippet"}
     for snippet in snippets(page.read_text("utf-8")):
-        try:
-            execute(snippet, namespace)
-        except (Exception, AssertionError) as error:
-            raise AssertionError(f"{page.name}, snippet at line {snippet.line}: {error}") from error
+        print(f"{page.name}, snippet at line {snippet.line}")  # noqa: T201 (shown by pytest where the test fails)
+        execute(snippet, namespace)
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.relative_to(ROOT).as_posix())
@@ -110,7 +110,8 @@ def test_a_difference_in_output_is_noticed():
 
 
 def test_blocks_are_found_with_their_roles():
-    page = "text\n<!-- broken: x.yaml -->\n```yaml\nneuromech: 1\n```\n\n```console\n$ neuromech a\nout\n$ neuromech b\n```\n"
+    document = "text\n<!-- broken: x.yaml -->\n```yaml\nneuromech: 1\n```\n"
+    page = f"{document}\n```console\n$ neuromech a\nout\n$ neuromech b\n```\n"
     found = list(snippets(page))
     assert [(one.language, one.file, one.broken, one.line) for one in found] == [
         ("yaml", "x.yaml", True, 4),

@@ -223,7 +223,9 @@ def test_closed_pipe_is_no_error(here: Path):
 
 
 def test_stdout_holds_nothing_but_the_result(here: Path):
-    done = subprocess.run(command("run", "one.yaml", "--json", "--no-figures"), capture_output=True, text=True, check=True)
+    done = subprocess.run(
+        command("run", "one.yaml", "--json", "--no-figures"), capture_output=True, text=True, check=True
+    )
     assert json.loads(done.stdout)["outcome"]["kind"] == "finished"
 
 
