@@ -1,9 +1,9 @@
 """Every snippet of the documentation does what the text says.
 
-In each Markdown file the blocks are executed in order, in one temporary folder: `<!-- file: name.yaml -->` before a
-block writes it to a file; whole documents are run for a few steps unless the comment says `broken`; `python` blocks without
-a file are executed; `console` blocks run each `$ neuromech …` line and compare the output that is shown, where `...` stands for
-any text.
+In each Markdown file the blocks are executed in order, in one temporary folder. `<!-- file: name.yaml -->` before a
+block writes it to a file. Whole documents are run for a few steps unless the comment says `broken`. `python` blocks
+that are no file are executed. `console` blocks run each `$ neuromech …` line and compare the output that is shown,
+where `...` stands for any text.
 """
 
 import contextlib

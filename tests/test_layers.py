@@ -20,7 +20,7 @@ LAYERS = (
     ("verification",),
     ("pipeline",),
     ("cli",),
-    ("testing",),
+    ("testing", "bench"),
 )
 RANK = {name: rank for rank, names in enumerate(LAYERS) for name in names}
 
