@@ -36,15 +36,17 @@ def integrate(program: Program, memory: Memory, start: float, end: float, times:
     """
     solver = program.graph.document.experiment.solver
     inner = np.empty(0) if times is None else np.clip(times, start, end)
-    found = solve_ivp(
-        _derivative(program, memory, float(np.nextafter(end, start))),
-        (start, end),
-        memory.x.copy(),
-        method=_SCIPY_NAMES[solver.method],
-        t_eval=np.append(inner, end),
-        rtol=float(solver.relative_tolerance),
-        atol=float(solver.absolute_tolerance),
-    )
+    # Steps that are tried and refused may overflow.
+    with np.errstate(over="ignore", invalid="ignore"):
+        found = solve_ivp(
+            _derivative(program, memory, float(np.nextafter(end, start))),
+            (start, end),
+            memory.x.copy(),
+            method=_SCIPY_NAMES[solver.method],
+            t_eval=np.append(inner, end),
+            rtol=float(solver.relative_tolerance),
+            atol=float(solver.absolute_tolerance),
+        )
     if not found.success:
         raise RunError(f"{_SCIPY_NAMES[solver.method]} gave up at {found.t[-1]:g} s: {found.message}")
     return np.ascontiguousarray(found.y.T)
