@@ -27,7 +27,7 @@ bench: $(VENV)/.developed  ## how long the shipped documents take
 	$(BIN)/python tests/benchmarks/real_time.py
 
 test-lowest: $(LOWEST)/.developed  ## the test-suite with the lowest versions that pyproject.toml allows
-	$(LOWEST)/bin/python -m pytest
+	$(LOWEST)/bin/python -m pytest -W ignore::DeprecationWarning  # of old packages about their newer dependencies
 
 clean:  ## forget both environments
 	rm -rf $(VENV) $(LOWEST)
