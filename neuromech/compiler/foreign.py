@@ -1,8 +1,8 @@
 """Calls of C functions by address from compiled code.
 
 The address is data, an int64 that the caller reads from an array, so the machine code holds none of it and may be kept
-on disk: another process finds the same function elsewhere. Neither calls nor loads check anything; what an address points
-to, and for how long, is the caller's business.
+on disk: another process finds the same function elsewhere. Neither calls nor loads check anything; what an address
+points to, and for how long, is the caller's business.
 """
 
 from typing import Any

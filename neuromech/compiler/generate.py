@@ -3,9 +3,15 @@
 from collections.abc import Callable, Iterator
 from typing import Any
 
-from neuromech.compiler.shape import KindShape, Shape, argument_names, evaluated_with_body, has_feedthrough
+from neuromech.compiler.shape import (
+    KindShape,
+    Shape,
+    argument_names,
+    evaluated_with_body,
+    has_feedthrough,
+    is_scheduled,
+)
 from neuromech.compiler.template import BODY, NETWORK, NO_BODY, STEPPERS
-from neuromech.components.base import Component
 
 
 def generate(shape: Shape) -> str:
@@ -19,8 +25,8 @@ def generate(shape: Shape) -> str:
         _positions(shape),
         *(_equations(kind) for kind in shape.kinds),
         _outputs(shape),
-        _dispatch("evaluate_network", shape, [kind for kind in shape.kinds if _scheduled_in_network(kind.cls)]),
-        _dispatch("evaluate_mechanics", shape, [kind for kind in shape.kinds if evaluated_with_body(kind.cls)]),
+        _dispatch("evaluate_network", shape, with_body=False),
+        _dispatch("evaluate_mechanics", shape, with_body=True),
         _inputs(shape),
         _flows(shape),
         NETWORK,
@@ -72,10 +78,6 @@ def _equations(kind: KindShape) -> str:
         if getattr(cls, part)
     ]
     return "\n".join(lines)
-
-
-def _scheduled_in_network(cls: type[Component]) -> bool:
-    return has_feedthrough(cls) and not evaluated_with_body(cls)
 
 
 def _outputs(shape: Shape) -> str:
@@ -138,13 +140,19 @@ def _argument(kind: KindShape, name: str) -> str:
     return name if name in kind.uniform else f"{name}[i]"
 
 
-def _dispatch(function: str, shape: Shape, kinds: list[KindShape]) -> str:
+def _dispatch(function: str, shape: Shape, *, with_body: bool) -> str:
     order = function.replace("evaluate_", "") + "_order"
+    phase = [kind for kind in shape.kinds if evaluated_with_body(kind.cls) == with_body]
+    kinds = [kind for kind in phase if is_scheduled(kind)]
     lines = [
         "@equation",
         f"def {function}(x, s, u, p, F, I):",
         '    """Inputs and outputs of what passes inputs straight on, in an order in which each input is ready."""',
     ]
+    for kind in phase if with_body else ():
+        if kind.early and kind.cls.output:
+            lines.append(f"    {_gather_all(kind)}")
+            lines += _loop(kind, kind.cls.output, "output")
     if not kinds:
         return "\n".join([*lines, "    return"])
     lines += [f"    for k in range(<{order}ed>):", f"        kind, i = I[<{order}> + 2 * k], I[<{order}> + 2 * k + 1]"]
@@ -173,10 +181,13 @@ def _inputs(shape: Shape) -> str:
     ]
     for kind in shape.kinds:
         if kind.cls.flow and kind.cls.inputs:
-            count = f"<{kind.name}.count>"
-            ports = len(kind.cls.inputs)
-            lines.append(f"    gather(s, u, p, F, I, <{kind.name}.inputs>, {ports} * {count}, 0, 1)")
+            lines.append(f"    {_gather_all(kind)}")
     return "\n".join([*lines, "    return"] if len(lines) == 3 else lines)
+
+
+def _gather_all(kind: KindShape) -> str:
+    rows = f"{len(kind.cls.inputs)} * <{kind.name}.count>"
+    return f"gather(s, u, p, F, I, <{kind.name}.inputs>, {rows}, 0, 1)"
 
 
 def _flows(shape: Shape) -> str:

@@ -26,14 +26,22 @@ def blocks(graph: ModelGraph) -> tuple[Block, ...]:
     for element in graph.elements("neuron", "drive", "sensor", "muscle"):
         if isinstance(element.spec, Component):
             grouped.setdefault(type(element.spec), []).append(element)
-    return tuple(_block(cls, grouped[cls]) for cls in sorted(grouped, key=lambda cls: cls.kind_name()))
+    waiting = set(_waiting(graph))
+    kinds = sorted(grouped, key=lambda cls: cls.kind_name())
+    return tuple(_block(cls, grouped[cls], waiting.isdisjoint(e.name for e in grouped[cls])) for cls in kinds)
 
 
-def _block(cls: type[Component], elements: list[Element]) -> Block:
+def _waiting(graph: ModelGraph) -> Iterable[str]:
+    """Yield what needs an output of a muscle or a sensor."""
+    late = {element.name for element in graph.elements("muscle", "sensor")}
+    return (receiver for sender, receiver, _ in graph.connections("wire", "synapse") if sender in late)
+
+
+def _block(cls: type[Component], elements: list[Element], early: bool) -> Block:
     ordered = tuple(sorted(elements, key=lambda element: element.name))
     components = tuple(element.spec for element in ordered if isinstance(element.spec, Component))
     uniform = frozenset(name for name in parameter_names(cls) if _is_uniform([getattr(c, name) for c in components]))
-    return Block(KindShape(cls, uniform), ordered, components)
+    return Block(KindShape(cls, uniform, early), ordered, components)
 
 
 def _is_uniform(values: Sequence[Quantity]) -> bool:

@@ -10,7 +10,7 @@ import networkx as nx
 from neuromech.compiler.buffers import Buffer, Reserve
 from neuromech.compiler.layout import Layout
 from neuromech.compiler.lower_components import Block, follow
-from neuromech.compiler.shape import argument_names, evaluated_with_body, has_feedthrough
+from neuromech.compiler.shape import argument_names, evaluated_with_body, is_scheduled
 from neuromech.components.base import Component
 from neuromech.graph.model import Connection, ModelGraph
 from neuromech.units import Quantity
@@ -85,14 +85,14 @@ def _delay_lines(
 
 
 def evaluation_order(graph: ModelGraph, blocks: tuple[Block, ...], integers: Buffer) -> None:
-    """Write (kind, instance) pairs of what passes inputs straight on, senders before receivers.
+    """Write (kind, instance) pairs of what is evaluated one by one, senders before receivers.
 
     Neurons come in one order, evaluated with the network; muscles and sensors in another, evaluated with the body.
     """
     place = {element.name: (k, i) for k, block in enumerate(blocks) for i, element in enumerate(block.elements)}
     passing: dict[bool, set[str]] = defaultdict(set)
     for block in blocks:
-        if evaluated_with_body(block.shape.cls) or has_feedthrough(block.shape.cls):
+        if is_scheduled(block.shape):
             passing[evaluated_with_body(block.shape.cls)].update(element.name for element in block.elements)
     for with_body, name in ((False, "network"), (True, "mechanics")):
         order = _sorted(graph, passing[with_body])

@@ -8,7 +8,7 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
-from neuromech.compiler.exponential import cosh, exp
+from neuromech.compiler.exponential import cosh, exp, log
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -30,9 +30,9 @@ def equation(function: Callable[..., Any]) -> Any:
 def elementwise(function: Callable[..., Any]) -> Any:
     """Compile an equation of a component so that a loop can evaluate it for several elements at once.
 
-    The equation's own `exp` and `cosh` are exchanged for those of `neuromech.compiler.exponential`.
+    The equation's own `exp`, `cosh` and `log` are exchanged for those of `neuromech.compiler.exponential`.
     """
-    names = {**function.__globals__, "exp": exp, "cosh": cosh}
+    names = {**function.__globals__, "exp": exp, "cosh": cosh, "log": log}
     own = FunctionType(function.__code__, names, function.__name__, function.__defaults__)
     return numba.njit(nogil=True, error_model="numpy", fastmath=_FAST_MATH, forceinline=True)(own)
 
@@ -66,19 +66,23 @@ def interpolate(t: float, start: int, count: int, times: int, values: int, p: Fl
 
 @equation
 def solve_symmetric(matrix: Floats, vector: Floats) -> None:
-    """Solve A x = b in place for a symmetric positive definite A (n, n), by its Cholesky factor; b becomes x."""
+    """Solve A x = b in place for a symmetric positive definite A (n, n), as L D Lᵀ; b becomes x, A its factors."""
     n = vector.shape[0]
-    for i in range(n):
-        for j in range(i + 1):
+    for j in range(n):
+        for k in range(j):
+            factor = matrix[j, k] * matrix[k, k]
+            matrix[k, j] = factor
+            matrix[j, j] -= factor * matrix[j, k]
+        inverse = 1.0 / matrix[j, j]
+        for i in range(j + 1, n):
             total = matrix[i, j]
             for k in range(j):
-                total -= matrix[i, k] * matrix[j, k]
-            matrix[i, j] = np.sqrt(total) if i == j else total / matrix[j, j]
+                total -= matrix[i, k] * matrix[k, j]
+            matrix[i, j] = total * inverse
     for i in range(n):
         for k in range(i):
             vector[i] -= matrix[i, k] * vector[k]
-        vector[i] /= matrix[i, i]
     for i in range(n - 1, -1, -1):
+        vector[i] /= matrix[i, i]
         for k in range(i + 1, n):
             vector[i] -= matrix[k, i] * vector[k]
-        vector[i] /= matrix[i, i]

@@ -27,10 +27,17 @@ COMMON = (
 
 @dataclass(frozen=True)
 class KindShape:
-    """One component class in use, and which of its parameters are one number for all its instances."""
+    """One component class in use.
+
+    Args:
+        cls: the class.
+        uniform: parameters that are one number for all its instances.
+        early: whether no instance waits for a muscle or a sensor, so that one loop evaluates them all.
+    """
 
     cls: type[Component]
     uniform: frozenset[str]
+    early: bool
 
     @property
     def name(self) -> str:
@@ -78,3 +85,8 @@ def has_feedthrough(cls: type[Component]) -> bool:
 def evaluated_with_body(cls: type[Component]) -> bool:
     """Return whether outputs are evaluated once per body step: muscles and sensors are."""
     return cls.family in ("muscle", "sensor")
+
+
+def is_scheduled(kind: KindShape) -> bool:
+    """Return whether instances are evaluated one by one, in an order; all of another kind are evaluated in one loop."""
+    return not kind.early if evaluated_with_body(kind.cls) else has_feedthrough(kind.cls)

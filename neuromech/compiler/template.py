@@ -213,8 +213,13 @@ def kinematics(s, F, I, T, D):
     for k in range(<contacts>):
         for c in range(3):
             s[<point> + 3 * k + c] = centers[k, c]
-    velocity = s[body + n : body + 2 * n]
-    segment_velocities(topology, geometry, velocity, s[root + 7 : root + 13], rotation, position, linear, angular)
+    for r in range(1, <segments>):
+        for c in range(3):
+            axis[topology[r, 1], c] = world_axis(geometry, rotation, r, c)
+    linear[0] = s[root + 7 : root + 10]
+    if <tracked> > 1:
+        velocity = s[body + n : body + 2 * n]
+        segment_velocities(topology, geometry, velocity, s[root + 7 : root + 13], rotation, position, linear, angular)
     for k in range(<tracked>):
         r = I[<track> + k]
         at = <segment_signal> + 9 * k
@@ -254,9 +259,6 @@ def lines_length(k, p, I, T, D, joint, arm):
     topology, geometry, contact_segment, contact_position = T
     rotation, position, linear, angular, centers, axis, points, work = D
     n, segments = <joints>, <segments>
-    for r in range(1, segments):
-        for c in range(3):
-            axis[topology[r, 1], c] = world_axis(geometry, rotation, r, c)
     first, last = I[<path_point_first> + k], I[<path_point_first> + k + 1]
     carrier = I[<path_segment> + first : <path_segment> + last]
     for h in range(last - first):

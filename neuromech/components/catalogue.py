@@ -51,8 +51,10 @@ class Catalogue:
         for cls in classes:
             key = (cls.family, cls.kind_name())
             if key in found:
-                raise ValueError(f"two components claim the {key[0]} kind '{key[1]}': {found[key].__qualname__} "
-                                 f"and {cls.__qualname__}")
+                raise ValueError(
+                    f"two components claim the {key[0]} kind '{key[1]}': {found[key].__qualname__} "
+                    f"and {cls.__qualname__}"
+                )
             found[key] = cls
         self.classes: Mapping[tuple[Family, str], type[Component]] = MappingProxyType(found)
 

@@ -1,6 +1,6 @@
 """Muscles and the ways that they take over joints."""
 
-from math import exp, log1p
+from math import exp, log
 from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
@@ -96,7 +96,7 @@ class BrownMuscle(Muscle):
         when the muscle shortens. F_v is cut at zero, which it reaches at about four lengths per second.
         """
         relative = length / optimal_length
-        power = relative**2.3
+        power = exp(2.3 * log(relative))
         deviation = (power - 1.0) / 1.26
         f_length = exp(-deviation * deviation)
         f_length_slope = -2.0 * deviation * f_length * 2.3 * power / (relative * 1.26)
@@ -118,16 +118,14 @@ class BrownMuscle(Muscle):
             stiffness = passive_stiffness_in_flexion
         stiffness *= passive_stiffness_scale
         exponent = (relative - 1.4) / 0.05
-        wall = exponent + log1p(exp(-exponent)) if exponent > 0.0 else log1p(exp(exponent))
-        wall_slope = 1.0 / (1.0 + exp(-exponent)) / 0.05
+        decay = exp(-abs(exponent))
+        wall = max(exponent, 0.0) + log(1.0 + decay)
+        wall_slope = (1.0 if exponent > 0.0 else decay) / (1.0 + decay) / 0.05
         compression = 0.02 * exp(-18.7 * (relative - 0.3))
         passive = passive_scale * maximal_force * (stiffness * wall - compression + 0.02)
         passive_slope = passive_scale * maximal_force * (stiffness * wall_slope + 18.7 * compression) / optimal_length
         amplitude = maximal_force * activation_gain * activation
         active = amplitude * f_length * f_velocity
-        active_by_length = (
-            amplitude * (f_length_slope * f_velocity + f_length * f_velocity_by_length) / optimal_length
-        )
+        active_by_length = amplitude * (f_length_slope * f_velocity + f_length * f_velocity_by_length) / optimal_length
         active_by_velocity = amplitude * f_length * f_velocity_slope / standing_length
         return active + passive, active_by_length + passive_slope, active_by_velocity, active, passive
-

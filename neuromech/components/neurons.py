@@ -44,9 +44,7 @@ class ActivityBasedNeuron(Neuron):
     initial_potential: Voltage = quantity("-60 mV")
 
     @staticmethod
-    def output(
-        potential: float, threshold: float, half_activity_potential: float, activity_slope: float
-    ) -> float:
+    def output(potential: float, threshold: float, half_activity_potential: float, activity_slope: float) -> float:
         """Return the mean activity f(V) in 0…1: a logistic function, zero below the threshold (Habu 2020 eq. 11)."""
         if potential < threshold:
             return 0.0
@@ -149,9 +147,7 @@ class RybakInterneuron(ActivityBasedNeuron):
         g_excitatory = excitatory_conductance * excitation
         g_inhibitory = inhibitory_conductance * inhibition
         current = (
-            leak_conductance * leak_reversal
-            + g_excitatory * excitatory_reversal
-            + g_inhibitory * inhibitory_reversal
+            leak_conductance * leak_reversal + g_excitatory * excitatory_reversal + g_inhibitory * inhibitory_reversal
         )
         return current / capacitance, (leak_conductance + g_excitatory + g_inhibitory) / capacitance
 

@@ -23,7 +23,9 @@ class StretchSensor(Sensor):
     """Ia afferent: power of the stretch velocity plus stretch beyond a threshold length, while the leg is loaded."""
 
     kind: Literal["ia_stretch_sensor"] = "ia_stretch_sensor"
-    source: ClassVar[str] = "Habu 2020 eq. 12–13; Prilutsky et al. 2016, doi:10.1007/978-1-4939-3267-2_10 (signed power)"
+    source: ClassVar[str] = (
+        "Habu 2020 eq. 12–13; Prilutsky et al. 2016, doi:10.1007/978-1-4939-3267-2_10 (signed power)"
+    )
     inputs: ClassVar[tuple[Port, ...]] = (Port("length", "mm"), Port("velocity", "mm/s"), Port("load", "N"))
     outputs: ClassVar[tuple[Port, ...]] = (_SIGNAL,)
 
@@ -122,9 +124,7 @@ class JointSensor(Sensor):
     velocity_gain: Annotated[Quantity, Unit("gain per angular velocity", "s/rad")] = quantity("0 s/rad")
 
     @staticmethod
-    def output(
-        angle: float, velocity: float, reference_angle: float, angle_gain: float, velocity_gain: float
-    ) -> float:
+    def output(angle: float, velocity: float, reference_angle: float, angle_gain: float, velocity_gain: float) -> float:
         """Return angle_gain (q − q_ref) + velocity_gain dq/dt."""
         return angle_gain * (angle - reference_angle) + velocity_gain * velocity
 
@@ -139,8 +139,8 @@ class LinkSensor(Sensor):
 
     segment: Annotated[str, Reference("segment", (("{quantity}", "value"),))]
     quantity: Literal["x", "y", "z", "roll", "pitch", "yaw", "velocity_x", "velocity_y", "velocity_z"]
-    reference: Dimensionless = quantity("0")
-    gain: Dimensionless = quantity("1")
+    reference: Dimensionless = Quantity(0.0)
+    gain: Dimensionless = Quantity(1.0)
 
     @staticmethod
     def output(value: float, reference: float, gain: float) -> float:
