@@ -9,7 +9,7 @@ from typing import Any, Final
 import numpy as np
 
 from neuromech.bodies.base import body_problem
-from neuromech.bodies.mjcf import CONTACT, TIME_CONSTANT, mjcf_text
+from neuromech.bodies.mjcf import CONTACT, SLIP_RATE, TIME_CONSTANT, mjcf_text
 from neuromech.errors import DocumentError, MissingExtraError, Problem
 from neuromech.graph.engines import refusals
 from neuromech.graph.model import BodyModel
@@ -107,6 +107,7 @@ def _set_contact_laws(model: Any, body: BodyModel, step: float) -> Iterator[Prob
             yield body_problem(f"contact '{name}' is too stiff or too soft for MuJoCo at this step", hint)
             continue
         model.pair_solref[row] = reference
+        model.pair_solreffriction[row, 1] = -SLIP_RATE * impedance
         model.pair_solimp[row, :3] = (impedance, impedance, 1.0)
 
 

@@ -26,9 +26,11 @@ from neuromech.testing.body_models import (
     PENDULUM_ARM,
     PENDULUM_INERTIA,
     PENDULUM_MASS,
+    SLED_MASS,
     block,
     chains,
     pendulum,
+    sled,
 )
 
 Floats = NDArray[np.float64]
@@ -183,6 +185,46 @@ def contact_forces_change_momentum(opener: Opener, step: float, bound: float, fr
     assert np.abs(forces[:, 2]).max() > BLOCK_MASS * GRAVITY, "it does not touch the ground"
     assert (np.abs(forces[:, 0]).max() > 1.0) == (friction > 0.0)
     assert np.abs(forces - change).max() <= bound * np.abs(forces).max(), np.abs(forces - change).max()
+
+
+def landing_has_no_rebound(opener: Opener, step: float, bound: float) -> None:
+    """A level block that falls on its feet does not take off again, nor rise faster than `bound` times its impact."""
+    with opener(block(0.12), step) as body:
+        states = run(body, round(0.5 / step))
+        force = states[:, body.layout.contact_forces].reshape(len(states), -1, 3).sum(axis=1)[:, 2]
+        speed = states[:, body.layout.root_velocity][:, 2]
+    landed = int(np.flatnonzero(force)[0])
+    impact = -speed[landed - 1]
+    assert abs(impact / sqrt(2.0 * GRAVITY * 0.06) - 1.0) <= 0.01 + step * GRAVITY, impact
+    assert (force[landed:] > 0.0).all(), "it takes off again"
+    assert speed[landed:].max() <= bound * impact, speed[landed:].max() / impact
+
+
+def friction_is_that_of_an_incline(opener: Opener, step: float, friction: float, bound: float, creep: float) -> None:
+    """A weight W pushed by W tan θ, as on an incline of angle θ, rests where tan θ < μ; else it gains (tan θ − μ) W/m.
+
+    μ is the product of the frictions of contact and ground. Forces are means over time.
+
+    Args:
+        opener: opens a body.
+        step: in seconds.
+        friction: of the contact.
+        bound: of forces and the force that accelerates, relative to the weight.
+        creep: greatest speed (m/s) of what should rest.
+    """
+    weight, limit = BLOCK_MASS * GRAVITY, 0.5 * friction
+    for incline in (0.9 * limit, 1.5 * limit):
+        with opener(sled(friction), step) as body:
+            run(body, round(0.5 / step))
+            states = run(body, round(1.0 / step), np.array([0.0, incline * weight]))[round(0.2 / step) :]
+            speed = states[:, body.layout.velocities][:, 1]
+            x, _, z = states[1:, body.layout.contact_forces].mean(axis=0) / weight
+        gain = SLED_MASS * (speed[-1] - speed[0]) / (step * (len(speed) - 1)) / weight
+        assert abs(gain - max(0.0, incline - limit)) <= bound, gain
+        assert abs(x + min(incline, limit)) <= bound, x
+        assert abs(z - 1.0) <= bound, z
+        if incline < limit:
+            assert np.abs(speed).max() <= creep, np.abs(speed).max()
 
 
 def planar_root_stays_planar(opener: Opener, step: float) -> None:

@@ -11,6 +11,7 @@ PENDULUM_ARM = 0.2
 PENDULUM_INERTIA = 2e-3 + PENDULUM_MASS * PENDULUM_ARM**2
 GRAVITY = 9.81
 BLOCK_MASS = 2.0
+SLED_MASS = 1.5
 BLOCK_CENTER = (0.01, -0.005, 0.02)
 
 
@@ -82,6 +83,32 @@ def block(
         joints={},
         contacts=contacts,
         world=World(gravity=Quantity(GRAVITY), ground=Ground()),
+    )
+
+
+def sled(friction: float) -> BodyModel:
+    """Return a sled that slides along x on one sphere. What holds it slides along z: the sphere bears all weight.
+
+    Args:
+        friction: of the sphere; that of the ground is 0.5.
+    """
+    slide = {"kind": "slide", "position": vector(0.0, 0.0, 0.0)}
+    lift = Joint.model_validate(slide | {"parent": "base", "child": "carriage", "axis": vector(0.0, 0.0, 1.0)})
+    run = Joint.model_validate(slide | {"parent": "carriage", "child": "sled", "axis": vector(1.0, 0.0, 0.0)})
+    foot = Contact(segment="sled", position=vector(0.0, 0.0, 0.0), radius=Quantity(0.1), friction=Quantity(friction))
+    return BodyModel(
+        engine="pybullet",
+        file=None,
+        root=Root(position=vector(0.0, 0.0, 0.1)),
+        root_segment="base",
+        segments={
+            "base": segment(1.0, (1.0, 1.0, 1.0)),
+            "carriage": segment(BLOCK_MASS - SLED_MASS, (1e-3, 1e-3, 1e-3)),
+            "sled": segment(SLED_MASS, (1e-3, 1e-3, 1e-3)),
+        },
+        joints={"lift": lift, "run": run},
+        contacts={"foot": foot},
+        world=World(gravity=Quantity(GRAVITY), ground=Ground(friction=Quantity(0.5))),
     )
 
 
