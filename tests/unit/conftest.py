@@ -1,21 +1,27 @@
 """Documents as text, on their way to a run."""
 
+import json
 from collections.abc import Callable
 from pathlib import Path
 from textwrap import dedent
+from typing import Any
 
 import pytest
 
-Write = Callable[[str], Path]
+Write = Callable[[str | dict[str, Any]], Path]
 
 
 @pytest.fixture
 def document(tmp_path: Path) -> Write:
-    """A function that writes the text of a document and returns its file."""
+    """A function that writes a document, given as text or as plain values, and returns its file."""
 
-    def write(text: str) -> Path:
+    def write(content: str | dict[str, Any]) -> Path:
         file = tmp_path / f"document{len(list(tmp_path.iterdir()))}.yaml"
-        file.write_text("neuromech: 1\nname: test\n" + dedent(text), encoding="utf-8")
+        head = {"neuromech": 1, "name": "test"}
+        text = (
+            "neuromech: 1\nname: test\n" + dedent(content) if isinstance(content, str) else json.dumps(head | content)
+        )
+        file.write_text(text, encoding="utf-8")
         return file
 
     return write

@@ -1,0 +1,91 @@
+"""The linear algebra of the coupling against NumPy, and what the scheme promises of one step."""
+
+import numpy as np
+import pytest
+
+from neuromech.compiler.coupling import muscle_damping, muscle_torque, observer_implicit
+from neuromech.compiler.numerics import interpolate, relaxed, solve_symmetric
+
+ARMS = np.array([0.01, -0.02, 0.03, 0.015])
+FIRST, JOINT = np.array([0, 2, 3, 4]), np.array([0, 2, 1, 2])
+ROWS = np.array([[0.01, 0.0, -0.02], [0.0, 0.03, 0.0], [0.0, 0.0, 0.015]])  # Muscles by joints.
+
+
+def spd(seed, n=5):
+    root = np.random.default_rng(seed).normal(size=(n, n))
+    return root @ root.T + 0.1 * np.eye(n)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_symmetric_systems_are_solved(seed):
+    matrix, vector = spd(seed), np.arange(5.0)
+    solution = vector.copy()
+    solve_symmetric(matrix.copy(), solution)
+    assert solution == pytest.approx(np.linalg.solve(matrix, vector), rel=1e-9)
+
+
+def test_torque_and_damping_are_products_with_the_moment_arms():
+    force, slope = np.array([10.0, 20.0, 5.0]), np.array([100.0, 30.0, 7.0])
+    torque, matrix = np.ones(3), np.eye(3)
+    muscle_torque(force, ARMS, FIRST, JOINT, torque)
+    muscle_damping(slope, ARMS, FIRST, JOINT, matrix)
+    assert torque == pytest.approx(1.0 + ROWS.T @ force)
+    assert matrix == pytest.approx(np.eye(3) + ROWS.T @ np.diag(slope) @ ROWS)
+
+
+def coupled(dt, mass, damping, torque, velocity, last_velocity, last_torque):
+    applied, acceleration = torque.copy(), np.empty(len(torque))
+    observer_implicit(dt, mass.copy(), damping.copy(), applied, velocity, last_velocity, last_torque, acceleration)
+    return applied, acceleration
+
+
+def test_predicted_acceleration_solves_the_implicit_equation():
+    rng = np.random.default_rng(1)
+    mass, damping, dt = spd(1), spd(2), 1e-3
+    torque, velocity, last_velocity, last_torque = rng.normal(size=(4, 5))
+    applied, a = coupled(dt, mass, damping, torque, velocity, last_velocity, last_torque)
+    external = mass @ (velocity - last_velocity) / dt - last_torque
+    assert mass @ a == pytest.approx(torque - dt * damping @ a + external)
+    assert applied == pytest.approx(torque - dt * damping @ a)
+
+
+def test_a_static_load_is_borne_without_bias():
+    """Where the muscles hold a load and nothing moves, the torque that is applied is that of the muscles."""
+    torque, still = np.array([3.0, -2.0, 0.5, 0.0, 1.0]), np.zeros(5)
+    applied, a = coupled(1e-3, spd(3), 1e3 * spd(4), torque, still, still, torque)
+    assert applied == pytest.approx(torque, rel=1e-12)
+    assert a == pytest.approx(still, abs=1e-12)
+
+
+def test_without_damping_the_torque_is_left_alone():
+    rng = np.random.default_rng(5)
+    torque, *rest = rng.normal(size=(4, 5))
+    applied, _ = coupled(1e-3, spd(5), np.zeros((5, 5)), torque, *rest)
+    assert applied == pytest.approx(torque, rel=1e-15)
+
+
+def test_strong_damping_stops_a_joint_without_turning_it_round():
+    """An explicit damper of this strength would reverse the velocity a hundredfold in one step."""
+    mass, damping, dt, v = np.array([[1e-5]]), np.array([[1.0]]), 1e-3, 2.0
+    for _ in range(20):
+        torque = -damping[0] * v
+        applied, _ = coupled(dt, mass, damping, torque, np.array([v]), np.array([v]), np.zeros(1))
+        v, before = v + dt * applied[0] / mass[0, 0], v
+        assert 0.0 <= v < before
+    assert v < 1e-6
+
+
+@pytest.mark.parametrize("rate", [0.0, 1e-9, 3.0, 1e4, -2.0])
+def test_relaxation_is_the_exact_solution(rate):
+    x, drive, dt = 0.3, 5.0, 2e-3
+    reached = dt if rate == 0.0 else -np.expm1(-rate * dt) / rate
+    expected = x * np.exp(-rate * dt) + drive * reached
+    assert relaxed(x, drive, rate, dt) == pytest.approx(expected, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("t", "value"), [(-1.0, 1.0), (0.0, 1.0), (1.0, 1.0), (1.5, 2.0), (2.0, 7.0), (2.5, 7.0), (9.0, 7.0)]
+)
+def test_breakpoints_are_joined_by_lines_and_the_later_of_two_holds(t, value):
+    p = np.array([0.0, 1.0, 2.0, 2.0, 1.0, 1.0, 3.0, 7.0])
+    assert interpolate(t, 0, 4, 0, 4, p) == pytest.approx(value)
