@@ -18,10 +18,21 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True)
 class Engine:
-    """Name and version of the engine that moves a body, for the provenance of a run."""
+    """What moves a body, for the provenance of a run.
+
+    Args:
+        name: of the engine.
+        version: of the engine.
+        path: how it is called, for an engine that can be called in several ways.
+    """
 
     name: str
     version: str
+    path: str = ""
+
+    def __str__(self) -> str:
+        """Return name, version and path, as in `pybullet 3.2.7 (native)`."""
+        return f"{self.name} {self.version}" + (f" ({self.path})" if self.path else "")
 
 
 class Body(ABC):

@@ -1,17 +1,19 @@
-"""Which engine moves a body."""
+"""Which engine moves a body.
 
-from collections.abc import Callable
+The one place where a module is imported by name: an engine is a large library, and only a run whose document names it
+needs it, or needs to have it installed at all.
+"""
+
+from importlib import import_module
+from typing import Final
 
 from neuromech.bodies.base import Body
-from neuromech.bodies.hinge import HingeBody
-from neuromech.bodies.mujoco import MujocoBody
-from neuromech.bodies.pybullet import PyBulletBody
 from neuromech.graph.model import BodyModel
 
-_ENGINES: dict[str, Callable[[BodyModel, float], Body]] = {
-    "hinge": HingeBody,
-    "pybullet": PyBulletBody,
-    "mujoco": MujocoBody,
+_ENGINES: Final = {
+    "hinge": ("neuromech.bodies.hinge", "HingeBody"),
+    "pybullet": ("neuromech.bodies.pybullet", "PyBulletBody"),
+    "mujoco": ("neuromech.bodies.mujoco", "MujocoBody"),
 }
 
 
@@ -26,4 +28,6 @@ def open_body(body: BodyModel, step: float) -> Body:
         DocumentError: the engine cannot move this body.
         MissingExtraError: the engine is not installed.
     """
-    return _ENGINES[body.engine](body, step)
+    module, name = _ENGINES[body.engine]
+    opened: Body = getattr(import_module(module), name)(body, step)
+    return opened

@@ -8,7 +8,7 @@ points to, and for how long, is the caller's business.
 from typing import Any
 
 from llvmlite import ir
-from numba.core import cgutils, types
+from numba.core import types
 from numba.extending import intrinsic
 
 ADDRESS = types.int64
@@ -25,7 +25,7 @@ def foreign_function(result: Any, *arguments: Any) -> Any:
         arguments: types of the arguments; integers and floats are converted to them. Pointers are `ADDRESS`.
     """
 
-    @intrinsic  # type: ignore[untyped-decorator]
+    @intrinsic
     def call(_typing: Any, address: Any, values: Any) -> Any:
         if len(values) != len(arguments):
             return None
@@ -33,10 +33,8 @@ def foreign_function(result: Any, *arguments: Any) -> Any:
         def generate(context: Any, builder: Any, signature: Any, given: Any) -> Any:
             pointer, packed = given
             passed = [
-                context.cast(builder, value, source, target)
-                for value, source, target in zip(
-                    cgutils.unpack_tuple(builder, packed), signature.args[1], arguments, strict=True
-                )
+                context.cast(builder, builder.extract_value(packed, place), source, target)
+                for place, (source, target) in enumerate(zip(signature.args[1], arguments, strict=True))
             ]
             returned = ir.VoidType() if result is NOTHING else context.get_value_type(result)
             kind = ir.FunctionType(returned, [context.get_value_type(argument) for argument in arguments])
@@ -49,7 +47,7 @@ def foreign_function(result: Any, *arguments: Any) -> Any:
 
 
 def _load(kind: Any) -> Any:
-    @intrinsic  # type: ignore[untyped-decorator]
+    @intrinsic
     def load(_typing: Any, _address: Any) -> Any:
         def generate(context: Any, builder: Any, _signature: Any, given: Any) -> Any:
             return builder.load(builder.inttoptr(given[0], context.get_value_type(kind).as_pointer()))

@@ -140,7 +140,7 @@ def _with_body(run: _Run) -> tuple[Outcome, str]:
     if model is None:
         raise ValueError("a program with a tree has a body")
     with open_body(model, run.program.tick) as body:
-        engine = f"{body.engine.name} {body.engine.version}"
+        engine = str(body.engine)
         return _ended(run, lambda same: _body_loop(same, body)), engine
 
 

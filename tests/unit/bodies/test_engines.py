@@ -27,6 +27,11 @@ def with_joint(body, name, **changes):
     return replace(body, joints=body.joints | {name: body.joints[name].model_copy(update=changes)})
 
 
+def robot_of(body):
+    """Return Bullet's number of the robot, and the client as PyBullet wants it."""
+    return {"objectUniqueId": body._motion.world.robot, "physicsClientId": body._motion.client.number}
+
+
 def messages(error):
     return [problem.message for problem in error.value.problems]
 
@@ -71,7 +76,7 @@ def test_pybullet_refuses_what_bullet_does_not_know():
     body = replace(body, contacts={"toe": toe}, root=Root(kind="planar", orientation=vector(0.0, 0.0, 0.1)))
     before = clients()
     with pytest.raises(DocumentError) as error:
-        open_body(body, 1e-3)
+        PyBulletBody(body, 1e-3, "python")
     assert messages(error) == [
         "joint 'fore.1' has an armature, and PyBullet knows none",
         "contact 'toe' has stiffness only",
@@ -84,8 +89,9 @@ def test_pybullet_refuses_an_impossible_inertia_instead_of_zeroing_it(capfd):
     body = chains("free")
     body.segments["hind1"] = segment(0.1, (1e-4, 1e-4, 3e-4))
     before = clients()
-    with pytest.raises(DocumentError, match="PyBullet refuses the inertia of segment 'hind1'"):
-        open_body(body, 1e-3)
+    for path in ("python", "native"):
+        with pytest.raises(DocumentError, match="PyBullet refuses the inertia of segment 'hind1'"):
+            PyBulletBody(body, 1e-3, path)
     assert clients() == before
     capfd.readouterr()
 
@@ -98,7 +104,7 @@ def test_loading_prints_nothing(capfd):
 
 def test_clients_are_given_back():
     before = clients()
-    with open_body(chains("free"), 1e-3) as body:
+    with PyBulletBody(chains("free"), 1e-3, "python") as body:
         body.reset(np.zeros(6))
         assert clients() == before + 1
     assert clients() == before
@@ -155,9 +161,9 @@ def test_friction_is_the_product_of_contact_and_ground():
     sliding = {}
     for friction in (1.0, 0.0):
         world = World(ground=Ground(friction=Quantity(friction)))
-        with open_body(replace(block(0.06), world=world), 1e-3) as opened:
+        with PyBulletBody(replace(block(0.06), world=world), 1e-3, "python") as opened:
             run(opened, 300)
-            pybullet.resetBaseVelocity(opened._world.robot, [0.5, 0.0, 0.0], physicsClientId=opened._world.client)
+            pybullet.resetBaseVelocity(linearVelocity=[0.5, 0.0, 0.0], **robot_of(opened))
             sliding[friction] = run(opened, 300)[-1, opened.layout.root_velocity][0]
     assert sliding[1.0] == pytest.approx(0.0, abs=1e-6)
     assert sliding[0.0] == pytest.approx(0.5, abs=1e-6)
@@ -179,9 +185,8 @@ def test_root_quaternion_is_yaw_after_pitch_after_roll():
 
 
 def test_free_root_reports_its_frame_not_its_centre_of_mass():
-    with open_body(block(5.0, orientation=(0.1, 0.2, 0.3)), 1e-4) as body:
-        world = body._world
-        pybullet.resetBaseVelocity(world.robot, [0.0, 0.0, 0.0], [1.0, 2.0, 3.0], physicsClientId=world.client)
+    with PyBulletBody(block(5.0, orientation=(0.1, 0.2, 0.3)), 1e-4, "python") as body:
+        pybullet.resetBaseVelocity(linearVelocity=[0.0, 0.0, 0.0], angularVelocity=[1.0, 2.0, 3.0], **robot_of(body))
         states = run(body, 20)
     pose, velocity = states[:, body.layout.root_pose], states[:, body.layout.root_velocity]
     assert pose[0, :3] == pytest.approx([0.3, -0.2, 5.0], abs=1e-12)

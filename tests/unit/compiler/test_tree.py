@@ -92,15 +92,15 @@ def kinetic_energy(tree, rotation, linear, angular):
 
 def bullet_matrix(body):
     """Bullet's mass matrix with the root's motion eliminated, in the order of our joints."""
-    with PyBulletBody(body, 1e-3) as opened:
-        world = opened._world
+    with PyBulletBody(body, 1e-3, "python") as opened:
+        world, client = opened._motion.world, opened._motion.client.number
         state = np.zeros(opened.layout.size)
         opened.read(state)
-        moving = sorted(world.joints + world.root)
-        angles = [s[0] for s in pybullet.getJointStates(world.robot, moving, physicsClientId=world.client)]
-        full = np.array(pybullet.calculateMassMatrix(world.robot, angles, physicsClientId=world.client))
+        moving = sorted(joint.number for joint in world.joints + world.root)
+        angles = [s[0] for s in pybullet.getJointStates(world.robot, moving, physicsClientId=client)]
+        full = np.array(pybullet.calculateMassMatrix(world.robot, angles, physicsClientId=client))
     first = len(full) - len(moving)
-    order = [*range(first), *(first + moving.index(joint) for joint in world.root + world.joints)]
+    order = [*range(first), *(first + moving.index(joint.number) for joint in world.root + world.joints)]
     full = full[np.ix_(order, order)]
     root = first + len(world.root)
     joints = full[root:, root:]
@@ -185,14 +185,14 @@ def test_root_velocity_moves_all_segments_as_one_rigid_body():
 
 def test_segments_stand_where_bullet_has_them():
     body = random_body(9, "free")
-    with PyBulletBody(body, 1e-3) as opened:
+    with PyBulletBody(body, 1e-3, "python") as opened:
         state = np.zeros(opened.layout.size)
         opened.read(state)
-        world = opened._world
+        world, client = opened._motion.world, opened._motion.client.number
         places = {}
-        for number in range(pybullet.getNumJoints(world.robot, physicsClientId=world.client)):
-            name = pybullet.getJointInfo(world.robot, number, physicsClientId=world.client)[12].decode()
-            places[name] = pybullet.getLinkState(world.robot, number, physicsClientId=world.client)[4]
+        for number in range(pybullet.getNumJoints(world.robot, physicsClientId=client)):
+            name = pybullet.getJointInfo(world.robot, number, physicsClientId=client)[12].decode()
+            places[name] = pybullet.getLinkState(world.robot, number, physicsClientId=client)[4]
     tree = lower_tree(body)
     rotation, position = pose_of(tree, state[opened.layout.angles], state[opened.layout.root_pose])
     centers = np.zeros((1, 3))

@@ -1,0 +1,273 @@
+"""A Bullet world read and stepped by compiled code, through the addresses of Bullet's C functions.
+
+The arithmetic is compiled as it is written, without the liberties that equations have, so that it gives the bits that
+the portable path gives. A failure is remembered in `world[FAILED]`.
+"""
+
+from collections.abc import Callable
+from math import cos, sin
+from typing import Any, Final, NamedTuple
+
+import numba
+import numpy as np
+
+from neuromech.bodies.base import Floats
+from neuromech.bodies.bullet_c import CClient
+from neuromech.bodies.pybullet_world import BulletWorld
+from neuromech.compiler.foreign import (
+    ADDRESS,
+    DOUBLE,
+    INT,
+    NOTHING,
+    foreign_function,
+    load_address,
+    load_double,
+    load_int,
+)
+from neuromech.compiler.numerics import Integers
+from neuromech.errors import RunError
+
+CLIENT, ROBOT, GROUND, ROOT, FAILED = range(5)
+FIXED, FREE, PLANAR = range(3)
+
+_CALLS: Final = (
+    "b3RequestActualStateCommandInit",
+    "b3GetStatusActualState",
+    "b3InitRequestContactPointInformation",
+    "b3SetContactFilterBodyA",
+    "b3SetContactFilterBodyB",
+    "b3GetContactPointInformation",
+    "b3JointControlCommandInit2",
+    "b3JointControlSetDesiredForceTorque",
+    "b3InitStepSimulationCommand",
+    "b3SubmitClientCommand",
+    "b3ProcessServerStatus",
+    "b3GetStatusType",
+)
+(
+    _REQUEST_STATE,
+    _STATE,
+    _REQUEST_CONTACTS,
+    _FILTER_A,
+    _FILTER_B,
+    _CONTACTS,
+    _CONTROL,
+    _SET_TORQUE,
+    _STEP,
+    _SUBMIT,
+    _ANSWER,
+    _STATUS,
+) = range(len(_CALLS))
+_TORQUE_CONTROL: Final = 1
+_STEPPED: Final = 26
+
+# b3ContactPointData, in bytes.
+_POINT_SIZE: Final = 176
+_LINK: Final = 12
+_NORMAL: Final = 72
+_NORMAL_FORCE: Final = 104
+_FRICTION: Final = (112, 120)
+_FRICTION_DIRECTION: Final = (128, 152)
+
+_of_client = foreign_function(ADDRESS, ADDRESS)
+_of_robot = foreign_function(ADDRESS, ADDRESS, INT)
+_control = foreign_function(ADDRESS, ADDRESS, INT, INT)
+_set_torque = foreign_function(INT, ADDRESS, INT, DOUBLE)
+_filter = foreign_function(NOTHING, ADDRESS, INT)
+_submit = foreign_function(INT, ADDRESS, ADDRESS)
+_status = foreign_function(INT, ADDRESS)
+_state = foreign_function(INT, ADDRESS, ADDRESS, ADDRESS, ADDRESS, ADDRESS, ADDRESS, ADDRESS, ADDRESS)
+_contacts = foreign_function(NOTHING, ADDRESS, ADDRESS)
+
+
+class BulletEngine(NamedTuple):
+    """A world as compiled code sees it.
+
+    Args:
+        calls: addresses of Bullet's functions, in the order of `_CALLS`.
+        world: the client's handle, the numbers of robot and ground (−1 without one), the kind of root, and whether
+            Bullet failed.
+        positions: place of each joint among the robot's positions; those of a planar root follow.
+        velocities: place of each joint among the robot's velocities; those of a planar root follow.
+        rows: Bullet's link number -> row of the contact, −1 for other links.
+        constants: first pose of the root frame (7), centre of mass of the root segment in its frame (3).
+        answer: room for what Bullet answers.
+    """
+
+    calls: Integers
+    world: Integers
+    positions: Integers
+    velocities: Integers
+    rows: Integers
+    constants: Floats
+    answer: Integers
+
+
+class NativeMotion:
+    """Reads and steps a world through the compiled functions.
+
+    Attributes:
+        client: the client.
+        world: what it built.
+    """
+
+    def __init__(self, client: CClient, world: BulletWorld) -> None:
+        """Take the numbers of joints from the world."""
+        self.client = client
+        self.world = world
+        self._engine = _engine(client, world)
+
+    def read(self, state: Floats) -> None:
+        """Fill the state array."""
+        if read(self._engine, state):
+            self.check()
+
+    def step(self, torque: Floats) -> None:
+        """Apply joint torques and advance by one step."""
+        if step(self._engine, torque):
+            self.check()
+
+    def native(self) -> BulletEngine:
+        """Return what the compiled functions take."""
+        return self._engine
+
+    def check(self) -> None:
+        """Raise a RunError if a compiled function failed."""
+        if self._engine.world[FAILED]:
+            raise RunError("PyBullet failed: it does not answer for the body any more")
+
+
+def _engine(client: CClient, world: BulletWorld) -> BulletEngine:
+    joints = world.joints + world.root
+    rows = np.full(max(world.contact_row, default=-1) + 1, -1, dtype=np.int64)
+    for link, row in world.contact_row.items():
+        rows[link] = row
+    ground = -1 if world.ground is None else world.ground
+    kind = PLANAR if world.root else FREE if world.free else FIXED
+    return BulletEngine(
+        calls=np.array([client.address(name) for name in _CALLS], dtype=np.int64),
+        world=np.array([client.handle, world.robot, ground, kind, 0], dtype=np.int64),
+        positions=np.array([joint.position for joint in joints], dtype=np.int64),
+        velocities=np.array([joint.velocity for joint in joints], dtype=np.int64),
+        rows=rows,
+        constants=np.array([*world.root_pose, *world.center]),
+        answer=np.zeros(2, dtype=np.int64),
+    )
+
+
+def _exact(function: Callable[..., Any]) -> Any:
+    return numba.njit(cache=True, nogil=True, error_model="numpy")(function)
+
+
+@_exact
+def read(engine: BulletEngine, state: Floats) -> int:
+    """Fill the state array, see `BodyState`, and return 0; 1 when Bullet failed."""
+    calls, world, answer = engine.calls, engine.world, engine.answer
+    status = _answered(engine, _of_robot(calls[_REQUEST_STATE], (world[CLIENT], world[ROBOT])))
+    into = answer.ctypes.data
+    if not _state(calls[_STATE], (status, 0, 0, 0, 0, into, into + 8, 0)):
+        world[FAILED] = 1
+        return 1
+    q, v = answer[0], answer[1]
+    n = engine.positions.shape[0] - (3 if world[ROOT] == PLANAR else 0)
+    for joint in range(n):
+        state[joint] = load_double(q + 8 * engine.positions[joint])
+        state[n + joint] = load_double(v + 8 * engine.velocities[joint])
+    root = state[2 * n : 2 * n + 13]
+    if world[ROOT] == PLANAR:
+        _read_planar_root(engine, n, q, v, root)
+    elif world[ROOT] == FREE:
+        _read_free_root(engine.constants[7:10], q, v, root)
+    else:
+        root[:7] = engine.constants[:7]
+        root[7:] = 0.0
+    _read_contacts(engine, state[2 * n + 13 :])
+    return 0
+
+
+@_exact
+def step(engine: BulletEngine, torque: Floats) -> int:
+    """Apply joint torques, advance by one step and return 0; another number when Bullet failed."""
+    calls, world = engine.calls, engine.world
+    if torque.shape[0]:
+        command = _control(calls[_CONTROL], (world[CLIENT], world[ROBOT], _TORQUE_CONTROL))
+        for joint in range(torque.shape[0]):
+            _set_torque(calls[_SET_TORQUE], (command, engine.velocities[joint], torque[joint]))
+        _submit(calls[_SUBMIT], (world[CLIENT], command))
+    status = _answered(engine, _of_client(calls[_STEP], (world[CLIENT],)))
+    if _status(calls[_STATUS], (status,)) != _STEPPED:
+        world[FAILED] = 1
+    return int(world[FAILED])
+
+
+@_exact
+def _answered(engine: BulletEngine, command: int) -> int:
+    calls, client = engine.calls, engine.world[CLIENT]
+    _submit(calls[_SUBMIT], (client, command))
+    return int(_of_client(calls[_ANSWER], (client,)))
+
+
+@_exact
+def _read_planar_root(engine: BulletEngine, n: int, q: int, v: int, root: Floats) -> None:
+    pitch = load_double(q + 8 * engine.positions[n + 2])
+    root[:] = 0.0
+    root[0] = load_double(q + 8 * engine.positions[n])
+    root[1] = engine.constants[1]
+    root[2] = load_double(q + 8 * engine.positions[n + 1])
+    root[4] = sin(pitch / 2)
+    root[6] = cos(pitch / 2)
+    root[7] = load_double(v + 8 * engine.velocities[n])
+    root[9] = load_double(v + 8 * engine.velocities[n + 1])
+    root[11] = load_double(v + 8 * engine.velocities[n + 2])
+
+
+@_exact
+def _read_free_root(center: Floats, q: int, v: int, root: Floats) -> None:
+    for k in range(7):
+        root[k] = load_double(q + 8 * k)
+    for k in range(6):
+        root[7 + k] = load_double(v + 8 * k)
+    x, y, z = _rotated(root[3], root[4], root[5], root[6], center[0], center[1], center[2])
+    root[0] -= x
+    root[1] -= y
+    root[2] -= z
+    wx, wy, wz = root[10], root[11], root[12]
+    root[7] -= wy * z - wz * y
+    root[8] -= wz * x - wx * z
+    root[9] -= wx * y - wy * x
+
+
+@_exact
+def _rotated(x: float, y: float, z: float, w: float, a: float, b: float, c: float) -> tuple[float, float, float]:
+    first, second, third = 2.0 * (y * c - z * b), 2.0 * (z * a - x * c), 2.0 * (x * b - y * a)
+    return (
+        a + w * first + y * third - z * second,
+        b + w * second + z * first - x * third,
+        c + w * third + x * second - y * first,
+    )
+
+
+@_exact
+def _read_contacts(engine: BulletEngine, forces: Floats) -> None:
+    calls, world, answer = engine.calls, engine.world, engine.answer
+    forces[:] = 0.0
+    if world[GROUND] < 0 or not forces.shape[0]:
+        return
+    command = _of_client(calls[_REQUEST_CONTACTS], (world[CLIENT],))
+    _filter(calls[_FILTER_A], (command, world[ROBOT]))
+    _filter(calls[_FILTER_B], (command, world[GROUND]))
+    _answered(engine, command)
+    _contacts(calls[_CONTACTS], (world[CLIENT], answer.ctypes.data))
+    for number in range(load_int(answer.ctypes.data)):
+        point = load_address(answer.ctypes.data + 8) + _POINT_SIZE * number
+        _add_force(point, forces[3 * engine.rows[load_int(point + _LINK)] :])
+
+
+@_exact
+def _add_force(point: int, force: Floats) -> None:
+    normal = load_double(point + _NORMAL_FORCE)
+    first, second = load_double(point + _FRICTION[0]), load_double(point + _FRICTION[1])
+    for k in range(3):
+        along = normal * load_double(point + _NORMAL + 8 * k)
+        along += first * load_double(point + _FRICTION_DIRECTION[0] + 8 * k)
+        force[k] += along + second * load_double(point + _FRICTION_DIRECTION[1] + 8 * k)
