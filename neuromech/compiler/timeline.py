@@ -66,7 +66,7 @@ def _breakpoints(initial: float, changes: Iterable[_Change]) -> list[tuple[float
 def _overlaps(document: Document, driven: dict[str, list[_Change]]) -> Iterator[Problem]:
     for name, changes in driven.items():
         for earlier, later in pairwise(changes):
-            if later.start < earlier.end:
+            if later.start < earlier.end or later.end == earlier.start:
                 message = f"changes parameter '{name}' while {earlier.path} still does, until {earlier.end:g} s"
                 yield document.problem("overlapping-changes", later.path, message, f"a start at {later.start:g} s")
 
