@@ -1,15 +1,19 @@
-"""Bodies moved by MuJoCo. Every body owns a model and its data."""
+"""Bodies moved by MuJoCo, stepped by compiled code or through its portable Python functions, with the same bits.
+
+Every body owns a model and its data.
+"""
 
 from collections.abc import Sequence
 from importlib.metadata import version
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Literal
 
 import numpy as np
 
-from neuromech.bodies import mujoco_native
 from neuromech.bodies.base import Body, Engine, Floats, root_quaternion
+from neuromech.bodies.mujoco_native import read
 from neuromech.bodies.mujoco_world import build_model, load_mujoco, step_address
 from neuromech.compiler.body_state import BodyState
+from neuromech.compiler.numerics import Integers
 from neuromech.compiler.tree import FREE_ROOT, PLANAR_ROOT, lower_tree
 from neuromech.errors import RunError
 from neuromech.graph.model import BodyModel
@@ -18,36 +22,41 @@ from neuromech.graph.model import BodyModel
 class MujocoBody(Body):
     """A body in a MuJoCo world of its own."""
 
-    native_module: ClassVar[str | None] = mujoco_native.__name__
+    native_module: ClassVar[str | None] = "neuromech.bodies.mujoco_native"
 
-    def __init__(self, body: BodyModel, step: float) -> None:
+    def __init__(self, body: BodyModel, step: float, path: Literal["native", "python"] | None = None) -> None:
         """Compile the model.
 
         Args:
             body: the body.
             step: in seconds.
+            path: stepped by compiled code, or through Python; by compiled code where it can be, if not given.
 
         Raises:
             DocumentError: MuJoCo cannot move this body.
             MissingExtraError: MuJoCo is not installed.
+            RunError: the native path is asked for, and the address of `mj_step` cannot be found.
         """
         self._mujoco = load_mujoco()
+        address = None if path == "python" else step_address(self._mujoco)
+        if path == "native" and address is None:
+            raise RunError("MuJoCo's C function mj_step cannot be called here")
         self._model = build_model(self._mujoco, body, step)
         self._data: Any = self._mujoco.MjData(self._model)
         self.joints = tuple(body.joints)
         self.contacts = tuple(body.contacts)
         self.step_seconds = step
-        self.engine = Engine("mujoco", version("mujoco"))
+        self.engine = Engine("mujoco", version("mujoco"), "python" if address is None else "native")
         self.layout = BodyState(len(body.joints), len(body.contacts))
         joints = [self._model.joint(name) for name in self.joints]
         places = [[joint.qposadr[0] for joint in joints], [joint.dofadr[0] for joint in joints]]
         self._root_start = _root_start(body)
-        self._engine = self._views(body, np.array(places, dtype=np.int64).reshape(2, -1))
+        self._engine = self._views(body, np.array(places, dtype=np.int64).reshape(2, -1), address or 0)
         self.reset([float(joint.initial_angle) for joint in body.joints.values()])
 
     def read(self, state: Floats) -> None:
         """Fill the state array."""
-        mujoco_native.read(self._opened(), state)
+        read(self._opened(), state)
 
     def step(self, torque: Floats) -> None:
         """Apply joint torques and advance by one step."""
@@ -74,9 +83,9 @@ class MujocoBody(Body):
             speeds[places[1]] = velocities
 
     def native(self) -> tuple[Any, ...] | None:
-        """Return the views that `neuromech.bodies.mujoco_native` works on, None where `mj_step` has no address."""
+        """Return the views that `neuromech.bodies.mujoco_native` works on, None on the Python path."""
         engine = self._opened()
-        return engine if engine[0][0] else None
+        return engine if self.engine.path == "native" else None
 
     def close(self) -> None:
         """Free the data."""
@@ -88,9 +97,9 @@ class MujocoBody(Body):
             raise RunError("the body is closed")
         return self._engine
 
-    def _views(self, body: BodyModel, places: Any) -> tuple[Any, ...]:
+    def _views(self, body: BodyModel, places: Integers, address: int) -> tuple[Any, ...]:
         data = self._data
-        addresses = (step_address(self._mujoco) or 0, self._model._address, data._address)
+        addresses = (address, self._model._address, data._address)
         pose = (*map(float, body.root.position), *root_quaternion(body.root))
         return (
             np.array(addresses, dtype=np.int64),

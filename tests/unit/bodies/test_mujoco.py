@@ -57,7 +57,8 @@ def messages(error):
     ids=["suspended cat", "cat on its feet", "block", "planar block"],
 )
 def test_compiled_and_python_path_give_the_same_bits(model):
-    with MujocoBody(model(), 1e-3) as one, MujocoBody(model(), 1e-3) as two:
+    with MujocoBody(model(), 1e-3, "native") as one, MujocoBody(model(), 1e-3, "python") as two:
+        assert two.native() is None
         torques = np.random.default_rng(1).normal(0.0, 0.05, (500, len(one.joints)))
         states = np.zeros((2, 500, one.layout.size))
         assert compiled_run(one.native(), torques, states[0]) == -1
@@ -163,7 +164,7 @@ def test_shapes_are_drawn_and_change_nothing():
 
 def test_engine_is_named_with_its_version():
     with open_body(pendulum(engine="mujoco"), 1e-3) as body:
-        assert (body.engine.name, body.engine.version) == ("mujoco", mujoco.__version__)
+        assert str(body.engine) == f"mujoco {mujoco.__version__} (native)"
 
 
 def test_divergence_is_an_error_and_no_new_start(tmp_path, monkeypatch, caplog):
@@ -195,11 +196,13 @@ def test_closed_body_has_no_compiled_path():
             call()
 
 
-def test_body_without_compiled_symbols_has_the_python_path(monkeypatch):
+def test_body_without_the_address_of_mj_step_has_the_python_path(monkeypatch):
     monkeypatch.setattr("neuromech.bodies.mujoco.step_address", lambda package: None)
-    with MujocoBody(pendulum(1.0), 1e-3) as body, MujocoBody(pendulum(1.0), 1e-3) as other:
+    with MujocoBody(pendulum(1.0), 1e-3) as body:
         assert body.native() is None
-        assert np.array_equal(run(body, 20), run(other, 20))
+        assert body.engine.path == "python"
+    with pytest.raises(RunError, match="mj_step cannot be called"):
+        MujocoBody(pendulum(), 1e-3, path="native")
 
 
 def test_missing_package_is_named_with_the_extra(monkeypatch):
