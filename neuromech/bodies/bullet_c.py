@@ -30,7 +30,7 @@ _SIGNATURES: Final[dict[str, tuple[Any, ...]]] = {
     "b3GetStatusType": (_I, _P),
     "b3GetStatusBodyIndex": (_I, _P),
     "b3GetStatusCollisionShapeUniqueId": (_I, _P),
-    "b3GetStatusActualState": (_I, _P, _P, _P, _P, _P, _P, _P, _P),
+    "b3GetStatusActualState2": (_I, *[_P] * 13),
     "b3InitPhysicsParamCommand": (_P, _P),
     "b3PhysicsParamSetEnableFileCaching": (_I, _P, _I),
     "b3PhysicsParamSetTimeStep": (_I, _P, _D),

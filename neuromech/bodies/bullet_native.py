@@ -32,7 +32,7 @@ FIXED, FREE, PLANAR = range(3)
 
 _CALLS: Final = (
     "b3RequestActualStateCommandInit",
-    "b3GetStatusActualState",
+    "b3GetStatusActualState2",
     "b3InitRequestContactPointInformation",
     "b3SetContactFilterBodyA",
     "b3SetContactFilterBodyB",
@@ -59,7 +59,12 @@ _CALLS: Final = (
     _STATUS,
 ) = range(len(_CALLS))
 _TORQUE_CONTROL: Final = 1
+_HAS_STATE: Final = 21
 _STEPPED: Final = 26
+
+# The pose of a link, in bytes.
+_POSE_SIZE: Final = 56
+_HEIGHT: Final = 16
 
 # b3ContactPointData, in bytes.
 _POINT_SIZE: Final = 176
@@ -76,7 +81,7 @@ _set_torque = foreign_function(INT, ADDRESS, INT, DOUBLE)
 _filter = foreign_function(NOTHING, ADDRESS, INT)
 _submit = foreign_function(INT, ADDRESS, ADDRESS)
 _status = foreign_function(INT, ADDRESS)
-_state = foreign_function(INT, ADDRESS, ADDRESS, ADDRESS, ADDRESS, ADDRESS, ADDRESS, ADDRESS, ADDRESS)
+_state = foreign_function(INT, *[ADDRESS] * 13)
 _contacts = foreign_function(NOTHING, ADDRESS, ADDRESS)
 
 
@@ -90,7 +95,8 @@ class BulletEngine(NamedTuple):
         positions: place of each joint among the robot's positions; those of a planar root follow.
         velocities: place of each joint among the robot's velocities; those of a planar root follow.
         rows: Bullet's link number -> row of the contact, −1 for other links.
-        constants: first pose of the root frame (7), centre of mass of the root segment in its frame (3).
+        constants: first pose of the root frame (7), centre of mass of the root segment in its frame (3), height
+            above which each contact is clear of the ground.
         answer: room for what Bullet answers.
     """
 
@@ -150,8 +156,8 @@ def _engine(client: CClient, world: BulletWorld) -> BulletEngine:
         positions=np.array([joint.position for joint in joints], dtype=np.int64),
         velocities=np.array([joint.velocity for joint in joints], dtype=np.int64),
         rows=rows,
-        constants=np.array([*world.root_pose, *world.center]),
-        answer=np.zeros(2, dtype=np.int64),
+        constants=np.array([*world.root_pose, *world.center, *world.clear_heights]),
+        answer=np.zeros(3, dtype=np.int64),
     )
 
 
@@ -164,24 +170,24 @@ def read(engine: BulletEngine, state: Floats) -> int:
     """Fill the state array, see `BodyState`, and return 0; 1 when Bullet failed."""
     calls, world, answer = engine.calls, engine.world, engine.answer
     status = _answered(engine, _of_robot(calls[_REQUEST_STATE], (world[CLIENT], world[ROBOT])))
-    into = answer.ctypes.data
-    if not _state(calls[_STATE], (status, 0, 0, 0, 0, into, into + 8, 0)):
+    if _status(calls[_STATUS], (status,)) != _HAS_STATE:
         world[FAILED] = 1
         return 1
+    into = answer.ctypes.data
+    _state(calls[_STATE], (status, 0, 0, 0, 0, 0, into, into + 8, 0, 0, 0, into + 16, 0))
     q, v = answer[0], answer[1]
     n = engine.positions.shape[0] - (3 if world[ROOT] == PLANAR else 0)
     for joint in range(n):
         state[joint] = load_double(q + 8 * engine.positions[joint])
         state[n + joint] = load_double(v + 8 * engine.velocities[joint])
-    root = state[2 * n : 2 * n + 13]
     if world[ROOT] == PLANAR:
-        _read_planar_root(engine, n, q, v, root)
+        _read_planar_root(engine, n, q, v, state)
     elif world[ROOT] == FREE:
-        _read_free_root(engine.constants[7:10], q, v, root)
+        _read_free_root(engine.constants, q, v, state, 2 * n)
     else:
-        root[:7] = engine.constants[:7]
-        root[7:] = 0.0
-    _read_contacts(engine, state[2 * n + 13 :])
+        for k in range(13):
+            state[2 * n + k] = engine.constants[k] if k < 7 else 0.0
+    _read_contacts(engine, answer[2], state, 2 * n + 13)
     return 0
 
 
@@ -208,33 +214,36 @@ def _answered(engine: BulletEngine, command: int) -> int:
 
 
 @_exact
-def _read_planar_root(engine: BulletEngine, n: int, q: int, v: int, root: Floats) -> None:
+def _read_planar_root(engine: BulletEngine, n: int, q: int, v: int, state: Floats) -> None:
+    root = 2 * n
+    for k in range(13):
+        state[root + k] = 0.0
     pitch = load_double(q + 8 * engine.positions[n + 2])
-    root[:] = 0.0
-    root[0] = load_double(q + 8 * engine.positions[n])
-    root[1] = engine.constants[1]
-    root[2] = load_double(q + 8 * engine.positions[n + 1])
-    root[4] = sin(pitch / 2)
-    root[6] = cos(pitch / 2)
-    root[7] = load_double(v + 8 * engine.velocities[n])
-    root[9] = load_double(v + 8 * engine.velocities[n + 1])
-    root[11] = load_double(v + 8 * engine.velocities[n + 2])
+    state[root] = load_double(q + 8 * engine.positions[n])
+    state[root + 1] = engine.constants[1]
+    state[root + 2] = load_double(q + 8 * engine.positions[n + 1])
+    state[root + 4] = sin(pitch / 2)
+    state[root + 6] = cos(pitch / 2)
+    state[root + 7] = load_double(v + 8 * engine.velocities[n])
+    state[root + 9] = load_double(v + 8 * engine.velocities[n + 1])
+    state[root + 11] = load_double(v + 8 * engine.velocities[n + 2])
 
 
 @_exact
-def _read_free_root(center: Floats, q: int, v: int, root: Floats) -> None:
+def _read_free_root(constants: Floats, q: int, v: int, state: Floats, root: int) -> None:
     for k in range(7):
-        root[k] = load_double(q + 8 * k)
+        state[root + k] = load_double(q + 8 * k)
     for k in range(6):
-        root[7 + k] = load_double(v + 8 * k)
-    x, y, z = _rotated(root[3], root[4], root[5], root[6], center[0], center[1], center[2])
-    root[0] -= x
-    root[1] -= y
-    root[2] -= z
-    wx, wy, wz = root[10], root[11], root[12]
-    root[7] -= wy * z - wz * y
-    root[8] -= wz * x - wx * z
-    root[9] -= wx * y - wy * x
+        state[root + 7 + k] = load_double(v + 8 * k)
+    x, y, z, w = state[root + 3], state[root + 4], state[root + 5], state[root + 6]
+    x, y, z = _rotated(x, y, z, w, constants[7], constants[8], constants[9])
+    state[root] -= x
+    state[root + 1] -= y
+    state[root + 2] -= z
+    wx, wy, wz = state[root + 10], state[root + 11], state[root + 12]
+    state[root + 7] -= wy * z - wz * y
+    state[root + 8] -= wz * x - wx * z
+    state[root + 9] -= wx * y - wy * x
 
 
 @_exact
@@ -248,10 +257,11 @@ def _rotated(x: float, y: float, z: float, w: float, a: float, b: float, c: floa
 
 
 @_exact
-def _read_contacts(engine: BulletEngine, forces: Floats) -> None:
+def _read_contacts(engine: BulletEngine, links: int, state: Floats, start: int) -> None:
     calls, world, answer = engine.calls, engine.world, engine.answer
-    forces[:] = 0.0
-    if world[GROUND] < 0 or not forces.shape[0]:
+    for place in range(start, state.shape[0]):
+        state[place] = 0.0
+    if _clear(engine, links):
         return
     command = _of_client(calls[_REQUEST_CONTACTS], (world[CLIENT],))
     _filter(calls[_FILTER_A], (command, world[ROBOT]))
@@ -260,14 +270,24 @@ def _read_contacts(engine: BulletEngine, forces: Floats) -> None:
     _contacts(calls[_CONTACTS], (world[CLIENT], answer.ctypes.data))
     for number in range(load_int(answer.ctypes.data)):
         point = load_address(answer.ctypes.data + 8) + _POINT_SIZE * number
-        _add_force(point, forces[3 * engine.rows[load_int(point + _LINK)] :])
+        _add_force(point, state, start + 3 * engine.rows[load_int(point + _LINK)])
 
 
 @_exact
-def _add_force(point: int, force: Floats) -> None:
+def _clear(engine: BulletEngine, links: int) -> bool:
+    # Bullet leaves the poses of links as they were when it last looked for contacts.
+    for link in range(engine.rows.shape[0]):
+        row = engine.rows[link]
+        if row >= 0 and not load_double(links + _POSE_SIZE * link + _HEIGHT) > engine.constants[10 + row]:
+            return False
+    return True
+
+
+@_exact
+def _add_force(point: int, state: Floats, start: int) -> None:
     normal = load_double(point + _NORMAL_FORCE)
     first, second = load_double(point + _FRICTION[0]), load_double(point + _FRICTION[1])
     for k in range(3):
         along = normal * load_double(point + _NORMAL + 8 * k)
         along += first * load_double(point + _FRICTION_DIRECTION[0] + 8 * k)
-        force[k] += along + second * load_double(point + _FRICTION_DIRECTION[1] + 8 * k)
+        state[start + k] += along + second * load_double(point + _FRICTION_DIRECTION[1] + 8 * k)

@@ -26,6 +26,7 @@ Vector = tuple[float, float, float]
 # 5 to 200 iterations gave the same gaits.
 _SOLVER_ITERATIONS: Final = 10
 _INERTIA_TOLERANCE: Final = 1e-9
+_GAP: Final = 0.05
 _FREE: Final = {
     "linearDamping": 0.0,
     "angularDamping": 0.0,
@@ -51,6 +52,7 @@ class BulletWorld:
         root_pose: first position in m and orientation x, y, z, w of the root frame.
         center: centre of mass of the root segment in its frame, in m.
         contact_row: Bullet's link number of a contact -> its row among the body's contacts.
+        clear_heights: for each contact, in m, how high its centre must be for Bullet to see nothing of the ground.
     """
 
     robot: int
@@ -61,6 +63,7 @@ class BulletWorld:
     root_pose: tuple[float, ...]
     center: Vector
     contact_row: dict[int, int]
+    clear_heights: list[float]
 
 
 def build_world(client: BulletClient, body: BodyModel, step: float) -> BulletWorld:
@@ -97,6 +100,7 @@ def build_world(client: BulletClient, body: BodyModel, step: float) -> BulletWor
         root_pose=(*map(float, body.root.position), *root_quaternion(body.root)),
         center=(float(x), float(y), float(z)),
         contact_row={links[CONTACT + name]: row for row, name in enumerate(body.contacts)},
+        clear_heights=_clear_heights(body),
     )
 
 
@@ -156,6 +160,15 @@ def _add_ground(client: BulletClient, body: BodyModel) -> int | None:
     plane = client.add_plane(float(ground.height))
     client.set_dynamics(plane, -1, {"lateralFriction": float(ground.friction), "restitution": 0.0})
     return plane
+
+
+def _clear_heights(body: BodyModel) -> list[float]:
+    # Bullet keeps contact points up to a gap of 0.02 m, for a sphere of more than 1 m in radius 0.02 radii.
+    ground = body.world.ground
+    if ground is None:
+        return [-inf] * len(body.contacts)
+    radii = (float(contact.radius) for contact in body.contacts.values())
+    return [float(ground.height) + radius + _GAP * max(1.0, radius) for radius in radii]
 
 
 def _set_links(client: BulletClient, robot: int, body: BodyModel, links: Mapping[str, int]) -> None:

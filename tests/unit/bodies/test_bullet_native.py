@@ -68,9 +68,20 @@ def states_under(body, torques):
         with_ground("planar"),
         with_ground("free"),
         block(0.3, orientation=(0.1, 0.3, -0.2)),
+        replace(block(5.0), world=World(gravity=Quantity(3000.0), ground=block(1.0).world.ground)),
         replace(block(0.3), world=World()),
     ],
-    ids=["pendulum", "limits", "fixed", "planar", "planar on ground", "free on ground", "falling block", "no ground"],
+    ids=[
+        "pendulum",
+        "limits",
+        "fixed",
+        "planar",
+        "planar on ground",
+        "free on ground",
+        "falling block",
+        "very fast",
+        "no ground",
+    ],
 )
 def test_both_paths_give_the_same_bits(model):
     torques = random_torques(1000, len(model.joints))
