@@ -8,7 +8,8 @@ from pydantic_core import PydanticUndefined
 from rich.table import Table
 from rich.text import Text
 
-from neuromech.cli.terminal import FINISHED, results, write_line
+from neuromech.cli.consoles import results
+from neuromech.cli.terminal import FINISHED, write_line
 from neuromech.components.base import Component, Port
 from neuromech.components.catalogue import Catalogue
 from neuromech.errors import DocumentError, Problem, did_you_mean

@@ -7,9 +7,10 @@ from pathlib import Path
 from rich.table import Table
 from rich.text import Text
 
+from neuromech.cli.consoles import results
 from neuromech.cli.documents import checked_graph
 from neuromech.cli.files import replace
-from neuromech.cli.terminal import FINISHED, note, results
+from neuromech.cli.terminal import FINISHED, note
 from neuromech.components.catalogue import Catalogue
 from neuromech.errors import DocumentError, Problem
 from neuromech.graph.model import ModelGraph

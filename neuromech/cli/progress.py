@@ -6,7 +6,7 @@ from contextlib import contextmanager
 from rich.progress import BarColumn, Progress, ProgressColumn, Task, TextColumn, TimeRemainingColumn
 from rich.text import Text
 
-from neuromech.cli.terminal import notes
+from neuromech.cli.consoles import notes
 
 
 class RealTimeFactorColumn(ProgressColumn):

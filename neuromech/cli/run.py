@@ -10,8 +10,9 @@ from pydantic_core import PydanticCustomError
 from rich.text import Text
 
 from neuromech.analyse.claims import Verdict
+from neuromech.cli.consoles import notes
 from neuromech.cli.progress import simulated_time
-from neuromech.cli.terminal import CLAIM_NOT_MET, ENDED_EARLY, FINISHED, note, notes, write_json
+from neuromech.cli.terminal import CLAIM_NOT_MET, ENDED_EARLY, FINISHED, note, write_json
 from neuromech.cli.verdicts import claims_table
 from neuromech.compiler.lower import lower
 from neuromech.compiler.program import Program

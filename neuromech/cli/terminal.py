@@ -7,11 +7,9 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import wraps
 from types import TracebackType
-from typing import Any, ParamSpec, TextIO
+from typing import Any, ParamSpec
 
 import typer
-from rich.console import Console
-from rich.text import Text
 
 from neuromech.errors import DocumentError, NeuromechError
 
@@ -20,25 +18,9 @@ BUG = 1
 BAD_DOCUMENT = 2
 ENDED_EARLY = 3
 CLAIM_NOT_MET = 4
-WIDTH_OF_FILES = 160
 TRACEBACK_VARIABLE = "NEUROMECH_TRACEBACK"
 
 Arguments = ParamSpec("Arguments")
-
-
-def results() -> Console:
-    """Return the console of stdout: what the user asked for."""
-    return _console(sys.stdout)
-
-
-def notes() -> Console:
-    """Return the console of stderr: progress, notes, errors."""
-    return _console(sys.stderr)
-
-
-def _console(stream: TextIO) -> Console:
-    width = None if stream.isatty() or "COLUMNS" in os.environ else WIDTH_OF_FILES
-    return Console(file=stream, width=width, highlight=False, soft_wrap=True)
 
 
 def write_line(text: str) -> None:
@@ -57,7 +39,7 @@ def write_json(value: object) -> None:
 
 def note(text: str) -> None:
     """Write a line to stderr that is no error."""
-    notes().print(Text(text))
+    sys.stderr.write(f"{text}\n")
 
 
 def keep_stdout_for_results() -> None:

@@ -3,9 +3,10 @@
 from collections.abc import Sequence
 from pathlib import Path
 
+from neuromech.cli.consoles import notes, results
 from neuromech.cli.documents import document_files
 from neuromech.cli.progress import counted
-from neuromech.cli.terminal import CLAIM_NOT_MET, FINISHED, notes, results, write_json
+from neuromech.cli.terminal import CLAIM_NOT_MET, FINISHED, write_json
 from neuromech.cli.validate import problems_of
 from neuromech.cli.verdicts import claims_table
 from neuromech.errors import DocumentError
