@@ -68,7 +68,10 @@ def derivative(t, x, dx, s, u, p, F, I):
 
 @equation
 def apply_protocol(t, p, I):
-    """Give every parameter that the protocol moves its value at time t, wherever it is used."""
+    """Give every parameter that the protocol moves its value at time t, wherever it is used.
+
+    Network steps hold the value in their middle, which follows a ramp to second order.
+    """
     for k in range(<driven>):
         start = I[<driven_start> + k]
         count = I[<driven_start> + k + 1] - start
@@ -193,6 +196,7 @@ def run(first, last, dt, x, s, u, p, F, I, R):
         network_outputs(x, s, u, p, F, I)
         network_inputs(s, u, p, F, I)
         record(step, x, s, u, I, R)
+        apply_protocol((step + 0.5) * dt, p, I)
         network_step(step, dt, x, s, u, p, F, I)
         bad = first_bad(x)
         if bad >= 0:
@@ -350,6 +354,7 @@ def advance(number, dt, x, s, u, p, F, I):
     """Advance the network over body step `number`, sensors held; return the position of a bad state or −1."""
     steps = <substeps>
     for step in range(number * steps, (number + 1) * steps):
+        apply_protocol((step + 0.5) * dt / steps, p, I)
         network_step(step, dt / steps, x, s, u, p, F, I)
     return first_bad(x)
 '''
