@@ -5,6 +5,7 @@ the portable path gives. A failure is remembered in `world[FAILED]`.
 """
 
 from collections.abc import Callable
+from functools import partial
 from math import cos, sin
 from typing import Any, Final, NamedTuple
 
@@ -161,11 +162,11 @@ def _engine(client: CClient, world: BulletWorld) -> BulletEngine:
     )
 
 
-def _exact(function: Callable[..., Any]) -> Any:
-    return numba.njit(cache=True, nogil=True, error_model="numpy")(function)
+def _exact(function: Callable[..., Any], keep: bool = False) -> Any:
+    return numba.njit(cache=keep, nogil=True, error_model="numpy")(function)
 
 
-@_exact
+@partial(_exact, keep=True)
 def read(engine: BulletEngine, state: Floats) -> int:
     """Fill the state array, see `BodyState`, and return 0; 1 when Bullet failed."""
     calls, world, answer = engine.calls, engine.world, engine.answer
@@ -192,18 +193,24 @@ def read(engine: BulletEngine, state: Floats) -> int:
 
 
 @_exact
+def advance(engine: BulletEngine) -> int:
+    """Advance by one step and return 0; 1 when Bullet failed. What Bullet itself costs."""
+    status = _answered(engine, _of_client(engine.calls[_STEP], (engine.world[CLIENT],)))
+    if _status(engine.calls[_STATUS], (status,)) != _STEPPED:
+        engine.world[FAILED] = 1
+    return int(engine.world[FAILED])
+
+
+@partial(_exact, keep=True)
 def step(engine: BulletEngine, torque: Floats) -> int:
-    """Apply joint torques, advance by one step and return 0; another number when Bullet failed."""
+    """Apply joint torques, advance by one step and return 0; 1 when Bullet failed."""
     calls, world = engine.calls, engine.world
     if torque.shape[0]:
         command = _control(calls[_CONTROL], (world[CLIENT], world[ROBOT], _TORQUE_CONTROL))
         for joint in range(torque.shape[0]):
             _set_torque(calls[_SET_TORQUE], (command, engine.velocities[joint], torque[joint]))
         _submit(calls[_SUBMIT], (world[CLIENT], command))
-    status = _answered(engine, _of_client(calls[_STEP], (world[CLIENT],)))
-    if _status(calls[_STATUS], (status,)) != _STEPPED:
-        world[FAILED] = 1
-    return int(world[FAILED])
+    return int(advance(engine))
 
 
 @_exact

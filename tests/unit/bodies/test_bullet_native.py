@@ -14,6 +14,7 @@ import pytest
 from neuromech.bodies import bullet_c, bullet_native
 from neuromech.bodies.pybullet import PyBulletBody, usual_path
 from neuromech.errors import DocumentError, RunError
+from neuromech.pipeline import build_graph, load_document
 from neuromech.spec.model import Contact, World
 from neuromech.testing.bodies import run
 from neuromech.testing.body_models import block, chains, pendulum, vector
@@ -95,6 +96,16 @@ def test_both_paths_give_the_same_bits(model):
     assert np.ptp(first, axis=0).max() > 0.1, "nothing moves"
     if model.contacts and model.world.ground:
         assert np.abs(first[:, native.layout.contact_forces]).max() > 0.5, "nothing touches"
+
+
+def test_both_paths_give_the_same_bits_for_the_suspended_cat():
+    file = Path(__file__).parents[3] / "specs" / "cat" / "suspended.yaml"
+    model = build_graph(load_document(file)).body
+    torques = random_torques(1000, len(model.joints))
+    with PyBulletBody(model, 1e-3, "native") as native, PyBulletBody(model, 1e-3, "python") as python:
+        states = states_under(native, torques)
+        assert np.array_equal(states, states_under(python, torques))
+    assert np.ptp(states[:, native.layout.angles], axis=0).min() > 0.1
 
 
 def test_the_compiled_loop_does_what_the_methods_do():
