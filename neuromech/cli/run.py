@@ -1,6 +1,7 @@
 """`neuromech run`: one run of one document, with its results file, figures, summary and claims."""
 
 import os
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -68,7 +69,7 @@ def run(request: Request) -> int:
     duration = _duration(request.duration)
     document = load_document(request.spec, request.overrides)
     program = lower(build_graph(document))
-    folder = _writable(request.out or Path("results") / document.experiment.name)
+    folder = _writable(request.out or Path("results") / _folder_name(document.experiment.name))
     recording = _simulated(program, request, duration)
     files = _write(recording, folder, request.figures)
     verdicts = judge_run(document, recording) if _is_complete(recording, request) else []
@@ -115,6 +116,11 @@ def _duration(text: str | None) -> float | None:
     except PydanticCustomError as error:
         hint = "write for example --duration '5 s'"
         raise DocumentError([Problem("duration", "--duration", error.message(), repr(text), hint)]) from error
+
+
+def _folder_name(name: str) -> str:
+    """Return the name of a document without what is special in a path."""
+    return re.sub(r"[^\w+-]+", "_", name)
 
 
 def _writable(folder: Path) -> Path:

@@ -111,6 +111,12 @@ def test_output_folder_that_cannot_be_made_is_reported_before_the_run(here: Path
     assert error.startswith("one.yaml/results: Not a directory. Hint:")
 
 
+def test_name_of_a_document_cannot_lead_out_of_the_results_folder(here: Path):
+    Path("one.yaml").write_text(ONE_NEURON.replace("name: one", "name: ../../my cell."))
+    assert call("run", "one.yaml", "--quiet", "--no-figures") == 0
+    assert [path.name for path in Path("results").iterdir()] == ["_my_cell_"]
+
+
 def test_validate_reports_all_files_and_counts(here: Path, capsys: pytest.CaptureFixture[str]):
     Path("sub").mkdir()
     Path("sub/two.yaml").write_text(ONE_NEURON.replace("rate_neuron", "rate_neurn"))
