@@ -22,6 +22,9 @@ class RealTimeFactorColumn(ProgressColumn):
 @contextmanager
 def simulated_time(duration: float, shown: bool) -> Iterator[Callable[[float], None]]:
     """Show a bar on stderr while the block runs; yield what takes the simulated time (s) of a run of `duration` (s)."""
+    if not shown:
+        yield lambda time: None
+        return
     columns = (
         TextColumn("simulating"),
         BarColumn(),
@@ -29,7 +32,7 @@ def simulated_time(duration: float, shown: bool) -> Iterator[Callable[[float], N
         RealTimeFactorColumn(),
         TimeRemainingColumn(),
     )
-    with Progress(*columns, console=notes(), disable=not shown) as progress:
+    with Progress(*columns, console=notes()) as progress:
         task = progress.add_task("", total=duration)
         yield lambda time: progress.update(task, completed=time)
 
@@ -37,8 +40,11 @@ def simulated_time(duration: float, shown: bool) -> Iterator[Callable[[float], N
 @contextmanager
 def counted(total: int, shown: bool) -> Iterator[Callable[[str], None]]:
     """Show a bar on stderr for `total` runs; yield what takes the name of the run that is about to start."""
+    if not shown:
+        yield lambda name: None
+        return
     columns = (TextColumn("run {task.completed:.0f} of {task.total:.0f}"), BarColumn(), TimeRemainingColumn())
-    with Progress(*columns, TextColumn("{task.description}"), console=notes(), disable=not shown) as progress:
+    with Progress(*columns, TextColumn("{task.description}"), console=notes()) as progress:
         task = progress.add_task("", total=total, completed=-1)
         yield lambda name: progress.update(task, advance=1, description=name)
         progress.update(task, completed=total, description="")
