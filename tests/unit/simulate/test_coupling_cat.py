@@ -60,7 +60,7 @@ def test_the_table_has_every_cell():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("coupling", "body_step", "expected"), documented())
+@pytest.mark.parametrize(("coupling", "body_step", "expected"), list(documented()))
 def test_documented_table_is_what_is_measured(coupling, body_step, expected):
     assert error(coupling, body_step) == pytest.approx(expected, rel=0.15, abs=0.01)
 
