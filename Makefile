@@ -3,6 +3,7 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 LOWEST := .venv-lowest
+PEERS := .venv-bench
 
 .PHONY: walk test check verify bench test-lowest clean
 
@@ -23,14 +24,14 @@ verify: $(VENV)/.developed  ## the slow proofs, and every claim of the shipped d
 	$(BIN)/python -m pytest -m slow
 	$(BIN)/neuromech verify specs
 
-bench: $(VENV)/.developed  ## how long the shipped documents take
-	$(BIN)/python tests/benchmarks/real_time.py
+bench: $(VENV)/.developed $(PEERS)/.installed  ## ratios to peers and limits, measured side by side
+	$(BIN)/neuromech bench --python $(PEERS)/bin/python
 
 test-lowest: $(LOWEST)/.developed  ## the test-suite with the lowest versions that pyproject.toml allows
 	$(LOWEST)/bin/python -m pytest -W ignore::DeprecationWarning  # of old packages about their newer dependencies
 
-clean:  ## forget both environments
-	rm -rf $(VENV) $(LOWEST)
+clean:  ## forget all environments
+	rm -rf $(VENV) $(LOWEST) $(PEERS)
 
 $(VENV)/.installed: pyproject.toml
 	$(PYTHON) -c 'import sys; sys.version_info >= (3, 11) or sys.exit("Python 3.11 or newer is needed: make PYTHON=python3.11")'
@@ -48,4 +49,11 @@ $(LOWEST)/.developed: pyproject.toml .ci/lowest.py
 	$(LOWEST)/bin/python .ci/lowest.py > $(LOWEST)/constraints.txt
 	$(LOWEST)/bin/python -m pip install --quiet --upgrade 'pip>=25.1'
 	$(LOWEST)/bin/python -m pip install --quiet --constraint $(LOWEST)/constraints.txt --editable . --group dev
+	touch $@
+
+# SNS-Toolbox without what it depends on: its NumPy back end needs no torch, which is some gigabytes.
+$(PEERS)/.installed: tests/benchmarks/peers/requirements.txt
+	$(PYTHON) -m venv --clear $(PEERS)
+	$(PEERS)/bin/python -m pip install --quiet --requirement $<
+	$(PEERS)/bin/python -m pip install --quiet --no-deps 'sns-toolbox==1.5.2'
 	touch $@

@@ -19,8 +19,9 @@ LAYERS = (
     ("report",),
     ("verification",),
     ("pipeline",),
+    ("bench",),
     ("cli",),
-    ("testing", "bench"),
+    ("testing",),
 )
 RANK = {name: rank for rank, names in enumerate(LAYERS) for name in names}
 

@@ -180,3 +180,28 @@ def new(
     from neuromech.cli.new import new
 
     return new(name, base)
+
+
+@app.command()
+@exits
+def bench(
+    only: Annotated[
+        list[str] | None, typer.Option("--only", metavar="NAME", help="This benchmark only; repeatable.")
+    ] = None,
+    repetitions: Annotated[int, typer.Option(min=1, help="Pairs of measurements.")] = 7,
+    as_json: AsJson = False,
+    markdown: Annotated[bool, typer.Option("--markdown", help="Write the table of docs/performance.md.")] = False,
+    peers: Annotated[Path, typer.Option(metavar="DIR", help="Scripts of the peers.")] = Path("tests/benchmarks/peers"),
+    python: Annotated[Path, typer.Option(metavar="FILE", help="Python with the peers' packages.")] = Path(
+        ".venv-bench/bin/python"
+    ),
+    out: Annotated[Path, typer.Option(metavar="DIR", help="Where raw numbers are kept.")] = Path("results/bench"),
+) -> int:
+    """Measure our speed against peers and limits.
+
+    Each side is measured in turn; what is shown are medians, ratios first. `make bench` makes what the peers need.
+    """
+    with without_banners():
+        from neuromech.cli.bench import Request, bench
+
+    return bench(Request(tuple(only or ()), repetitions, as_json, markdown, peers, python, out))

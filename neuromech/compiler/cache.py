@@ -5,6 +5,7 @@ import importlib.util
 import os
 import sys
 import tempfile
+import threading
 from collections.abc import Iterable
 from pathlib import Path
 from types import ModuleType
@@ -16,6 +17,8 @@ import platformdirs
 from neuromech.components.base import Component
 
 ENVIRONMENT_VARIABLE = "NEUROMECH_CACHE_DIR"
+
+_IMPORTING = threading.Lock()
 
 
 def folder() -> Path:
@@ -41,7 +44,12 @@ def module_file(source: str, classes: Iterable[type[Component]], files: Iterable
 
 
 def import_file(file: Path) -> ModuleType:
-    """Import a generated module, once per process."""
+    """Import a generated module, once per process, whichever thread asks first."""
+    with _IMPORTING:
+        return _imported(file)
+
+
+def _imported(file: Path) -> ModuleType:
     if file.stem in sys.modules:
         return sys.modules[file.stem]
     spec = importlib.util.spec_from_file_location(file.stem, file)
