@@ -125,7 +125,7 @@ def _network_adaptive(run: _Run) -> Outcome | None:
     marks = breakpoints(run.program, run.ticks * tick)
     for start, end in itertools.pairwise(marks):
         first, last = ticks_from(start, tick), ticks_from(end, tick)
-        states = integrate(run.program, memory, start, end, np.arange(first, last) * tick)
+        states = integrate(run.program, memory, start, end, np.arange(first, last, dtype=np.float64) * tick)
         for row in range(last - first):
             memory.x[:] = states[row]
             run.program.module.sample(first + row, tick, *memory.buffers, run.recorder.samples)
