@@ -1,5 +1,6 @@
 """Sensors: stretch, load, joint and link."""
 
+from math import pow
 from typing import Annotated, ClassVar, Literal
 
 from neuromech.components.base import Port, Reference, Sensor, State
@@ -52,7 +53,7 @@ class StretchSensor(Sensor):
         if load <= load_threshold:
             return 0.0
         speed = velocity / threshold_length
-        power = abs(speed) ** 0.6
+        power = pow(abs(speed), 0.6)
         if speed < 0.0:
             power = -power
         stretch = max(0.0, (length - threshold_length) / threshold_length)
@@ -78,7 +79,7 @@ class MuscleSpindle(Sensor):
     ) -> float:
         """Return the feedback, never negative; the velocity is in threshold lengths per second."""
         speed = velocity / threshold_length
-        power = abs(speed) ** 0.6
+        power = pow(abs(speed), 0.6)
         if speed < 0.0:
             power = -power
         stretch = max(0.0, (length - threshold_length) / threshold_length)
