@@ -26,6 +26,7 @@ verify: $(VENV)/.developed  ## the slow proofs, and every claim of the shipped d
 
 bench: $(VENV)/.developed $(PEERS)/.installed  ## ratios to peers and limits, measured side by side
 	$(BIN)/neuromech bench --python $(PEERS)/bin/python
+	$(BIN)/python tests/benchmarks/real_time.py
 
 test-lowest: $(LOWEST)/.developed  ## the test-suite with the lowest versions that pyproject.toml allows
 	$(LOWEST)/bin/python -m pytest -W ignore::DeprecationWarning  # of old packages about their newer dependencies

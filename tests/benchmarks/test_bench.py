@@ -6,16 +6,21 @@ import sys
 from contextlib import contextmanager
 from pathlib import Path
 
+import numpy as np
 import pytest
 
+from neuromech.bench.body_loop import SEED as BODY_SEED
+from neuromech.bench.body_loop import Engine, applied_torques, cat
 from neuromech.bench.catalogue import BENCHMARKS, run, worst
 from neuromech.bench.network import export, header, period
 from neuromech.bench.network_speed import REFERENCE, SEED, against_script, compared, small_network
 from neuromech.bench.pairing import Comparison, Result, failed, measure
 from neuromech.bench.peers import Peer, PeerError
 from neuromech.bench.workspace import Workspace
+from neuromech.bodies.factory import open_body
 from neuromech.cli.bench import as_markdown
 from neuromech.cli.main import run_arguments
+from neuromech.simulate.run import simulate
 
 ROOT = Path(__file__).parents[2]
 PEERS = Path(__file__).parent / "peers"
@@ -163,6 +168,21 @@ def test_shared_parameters_are_one_number_in_the_header_and_others_an_array(work
     assert "#define rybak_neuron_capacitance(i) (2e-11)" in text
     assert "#define rybak_neuron_activity_slope(i) rybak_neuron_activity_slope_values[i]" in text
     assert "#define NEURONS 76" in text
+
+
+@pytest.mark.parametrize("engine", ["pybullet", "mujoco"])
+def test_bare_steps_with_the_torques_of_the_loop_move_the_body_as_the_loop_did(workspace: Workspace, engine: Engine):
+    program = cat(workspace, "suspended", engine)
+    torques = applied_torques(program, workspace.body_seconds)
+    recording = simulate(program, seed=BODY_SEED, duration=workspace.body_seconds)
+    assert program.graph.body is not None
+    with open_body(program.graph.body, program.tick) as body:
+        for torque in torques[:-1]:
+            body.step(torque)
+        state = np.zeros(body.layout.size)
+        body.read(state)
+        wanted = [recording.signal(f"{joint}.angle")[1][-1] for joint in body.joints]
+    assert state[body.layout.angles].tolist() == wanted
 
 
 def test_the_period_of_a_sine_is_its_period():
