@@ -33,9 +33,16 @@ def test_shipped_document_tells_the_editor_its_schema(file: Path):
 
 
 def test_validation_of_all_shipped_documents_is_quick():
-    """It takes less than a second of process time on a quiet machine; the limit leaves room for a busy one."""
-    command = [sys.executable, "-m", "neuromech.cli", "validate", str(ROOT / "specs")]
-    assert min(process_seconds(command) for _ in range(3)) < 1.5
+    """It takes less than a second on a quiet machine, half of which is the import of what it cannot do without.
+
+    Both grow on a busy machine, so their ratio is what is tested.
+    """
+    libraries = "import networkx, numpy, pint, pydantic, ruamel.yaml, typer"
+    needed = min(process_seconds([sys.executable, "-c", libraries]) for _ in range(3))
+    taken = min(
+        process_seconds([sys.executable, "-m", "neuromech.cli", "validate", str(ROOT / "specs")]) for _ in range(3)
+    )
+    assert taken < 3.0 * needed
 
 
 def process_seconds(command: list[str]) -> float:
