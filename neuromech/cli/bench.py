@@ -45,14 +45,17 @@ def bench(request: Request) -> int:
         OSError: the numbers cannot be written.
     """
     _check(request.only)
-    described = machine()
-    found = []
+    described, started = machine(), datetime.now(UTC)
+    file = request.out / f"{started:%Y%m%dT%H%M%SZ}.json"
+    found = list[Result]()
     with tempfile.TemporaryDirectory(prefix="neuromech-bench-") as folder:
         workspace = Workspace(shipped_specs(), request.peers, request.python, Path(folder))
         for result in run(request.only or BENCHMARKS, workspace, request.repetitions):
             found.append(result)
+            # After each row, so that a long run that is stopped leaves what it measured.
+            write_text(file, _raw(found, described, started))
             note(f"{result.name}: {_ratio(result) or result.problem or _amount(result.as_dict(), 'ours')}")
-    note(f"wrote {_keep(found, described, request.out)}")
+    note(f"wrote {file}")
     if request.as_json:
         write_json([result.as_dict() for result in found])
     elif request.markdown:
@@ -95,13 +98,10 @@ def _check(names: Iterable[str]) -> None:
         raise DocumentError(problems)
 
 
-def _keep(found: Iterable[Result], described: dict[str, Any], folder: Path) -> Path:
-    now = datetime.now(UTC)
+def _raw(found: Iterable[Result], described: dict[str, Any], started: datetime) -> str:
     raw = [{**result.as_dict(), "measurements_ours": result.ours, "measurements_peer": result.peer} for result in found]
-    content = {"time": now.isoformat(timespec="seconds"), "machine": described, "results": raw}
-    file = folder / f"{now:%Y%m%dT%H%M%SZ}.json"
-    write_text(file, json.dumps(content, indent=2, ensure_ascii=False) + "\n")
-    return file
+    content = {"time": started.isoformat(timespec="seconds"), "machine": described, "results": raw}
+    return json.dumps(content, indent=2, ensure_ascii=False) + "\n"
 
 
 def _cells(result: Result) -> tuple[str, ...]:
