@@ -106,7 +106,7 @@ class View:
         return str(value)
 
     def _expand(self, pattern: str) -> list[str]:
-        if "*" not in pattern and "?" not in pattern:
+        if not any(sign in pattern for sign in "*?["):
             return [pattern]
         found = self.recording.match(pattern)
         if not found:

@@ -11,7 +11,7 @@ from neuromech.compiler.shape import (
     has_feedthrough,
     is_scheduled,
 )
-from neuromech.compiler.template import BODY, NETWORK, NO_BODY, STEPPERS
+from neuromech.compiler.template import BODY, GATHER, NETWORK, NO_BODY, ROWS, STEPPERS
 
 
 def generate(shape: Shape) -> str:
@@ -24,6 +24,8 @@ def generate(shape: Shape) -> str:
         _imports(shape),
         _positions(shape),
         *(_equations(kind) for kind in shape.kinds),
+        ROWS,
+        GATHER,
         _outputs(shape),
         _dispatch("evaluate_network", shape, with_body=False),
         _dispatch("evaluate_mechanics", shape, with_body=True),
@@ -39,7 +41,8 @@ def generate(shape: Shape) -> str:
 def _fill(text: str, shape: Shape) -> str:
     for name in shape.header():
         text = text.replace(f"<{name}>", f"I[{_constant(name)}]")
-    return text.replace("<delays>", str(shape.has_delays))
+    text = text.replace("<delays>", str(shape.has_delays)).replace("<shared weights>", str(shape.has_shared_weights))
+    return text.replace("<threads>", str(shape.has_threads))
 
 
 def _constant(name: str) -> str:
@@ -63,6 +66,7 @@ def _imports(shape: Shape) -> str:
         "from neuromech.compiler.kinematics import contact_positions, forward_kinematics, roll_pitch_yaw",
         "from neuromech.compiler.kinematics import segment_velocities, world_axis",
         "from neuromech.compiler.numerics import compiled, elementwise, equation, interpolate, relaxed",
+        "from neuromech.compiler.numerics import sum_at, weighted_sum_at",
         "from neuromech.compiler.paths import constant_path, straight_path",
         *sorted({f"from {kind.cls.__module__} import {kind.cls.__qualname__}" for kind in shape.kinds}),
     ]

@@ -1,5 +1,6 @@
 """ModelGraph → Program: names become positions, structure becomes arrays, kinds become one compiled step."""
 
+import os
 from collections.abc import Iterable
 
 import numpy as np
@@ -26,9 +27,11 @@ from neuromech.compiler.timeline import timeline
 from neuromech.compiler.tree import Tree, lower_tree
 from neuromech.errors import DocumentError
 from neuromech.graph.model import BodyModel, ModelGraph
-from neuromech.graph.signals import signals
+from neuromech.graph.signals import matching, signals, sizes, split
 
 _STAGE_ARRAYS = 5
+# Synapses from which on a second thread makes a step shorter (docs/performance.md).
+_BREAK_EVEN = 200_000
 
 
 def lower(graph: ModelGraph) -> Program:
@@ -39,7 +42,7 @@ def lower(graph: ModelGraph) -> Program:
             of what cannot change.
     """
     header = dict.fromkeys(COMMON, 0)
-    integers, floats, work, layout = Buffer(header), Buffer(header), Reserve(header), Layout()
+    integers, floats, work, layout = Buffer(header, np.int64), Buffer(header, np.float64), Reserve(header), Layout()
     solver = graph.document.experiment.solver
     parts = blocks(graph)
     place(parts, header, layout)
@@ -50,16 +53,24 @@ def lower(graph: ModelGraph) -> Program:
         muscle_signals(elements, layout, header)
         force_slots(elements, layout, integers)
     parameters(parts, floats, layout)
-    has_delays = connections(graph, layout, float(solver.step), integers, floats, work)
+    connected = connections(graph, layout, float(solver.step), integers, floats, work)
     evaluation_order(graph, parts, integers)
     points = _lower_mechanics(graph, graph.body, tree, layout, integers, floats, work)
     timeline(graph.document, layout, integers, floats)
-    work.add("base", len(layout.inputs))
+    work.add("base", layout.input_count)
     work.add("stages", _STAGE_ARRAYS * layout.state_count)
     header["explicit"] = int(solver.coupling == "explicit")
     substeps = header["substeps"] = round(float(solver.body_step) / float(solver.step)) if tree else 1
     _record_sections(graph, layout, integers, float(solver.body_step if tree else solver.step))
-    shape = Shape(tuple(part.shape for part in parts), _fixed_step(graph, has_delays), tree is not None, has_delays)
+    threads = _threads(solver.threads, connected.synapses)
+    shape = Shape(
+        tuple(part.shape for part in parts),
+        _fixed_step(graph, connected.has_delays),
+        has_body=tree is not None,
+        has_delays=connected.has_delays,
+        has_shared_weights=connected.has_shared_weights,
+        has_threads=threads > 1,
+    )
     source = generate(shape)
     return Program(
         graph=graph,
@@ -69,12 +80,13 @@ def lower(graph: ModelGraph) -> Program:
         layout=layout,
         header=header,
         integers=_with_header(integers, shape),
-        parameters=floats.floats(),
+        parameters=floats.array(),
         work_size=work.size,
         tree=tree,
         path_points=points,
         initial=_initial(parts, layout),
         substeps=substeps,
+        threads=threads,
     )
 
 
@@ -91,10 +103,10 @@ def _tracked(graph: ModelGraph) -> Iterable[str]:
 
 def recorded_names(graph: ModelGraph) -> Iterable[str]:
     """Yield the names of all signals that any record group asks for."""
-    available = Layout(signals=dict.fromkeys(signals(graph), 0))
+    every = list(signals(graph))
     for group in graph.document.experiment.record.values():
         for pattern in group.signals:
-            yield from available.match(pattern)
+            yield from matching(pattern, every)
 
 
 def _lower_mechanics(
@@ -120,19 +132,23 @@ def _lower_mechanics(
 
 def _record_sections(graph: ModelGraph, layout: Layout, integers: Buffer, tick: float) -> None:
     groups = graph.document.experiment.record.values()
-    names = [recorded(layout, group.signals, graph) for group in groups]
+    names = [recorded(group.signals, graph) for group in groups]
     integers.header["groups"] = len(names)
     integers.add("group_every", [round(float(group.every) / tick) for group in groups])
     starts = [0, *np.cumsum([len(some) for some in names], dtype=int).tolist()]
     integers.add("group_start", starts)
     integers.add("group_row", [0] * len(names))
     integers.add("slot", [layout.slot(name) for some in names for name in some])
+    integers.add("mean_first", [slots.start for slots in layout.means()])
+    integers.add("mean_count", [len(slots) for slots in layout.means()])
 
 
-def recorded(layout: Layout, patterns: Iterable[str], graph: ModelGraph) -> list[str]:
-    """Return the names that a record group asks for, in authored order of the elements, each once."""
-    wanted = {name for pattern in patterns for name in layout.match(pattern)}
-    return [name for name in signals(graph) if name in wanted]
+def recorded(patterns: Iterable[str], graph: ModelGraph) -> list[str]:
+    """Return the names that a record group asks for, each once: in authored order, then neurons of populations."""
+    every, populations = list(signals(graph)), sizes(graph)
+    wanted = dict.fromkeys(name for pattern in patterns for name in matching(pattern, every, populations))
+    listed = [name for name in every if name in wanted]
+    return [*listed, *(name for name in wanted if split(name)[1] is not None)]
 
 
 def _fixed_step(graph: ModelGraph, has_delays: bool) -> FixedStep:
@@ -149,7 +165,7 @@ def _fixed_step(graph: ModelGraph, has_delays: bool) -> FixedStep:
 def _with_header(integers: Buffer, shape: Shape) -> "np.ndarray[tuple[int], np.dtype[np.int64]]":
     positions = shape.header()
     size = len(positions)
-    values = np.concatenate([np.zeros(size, dtype=np.int64), integers.integers()])
+    values = integers.array(front=size)
     for name, position in positions.items():
         shifted = name in integers.sections
         values[position] = integers.header[name] + (size if shifted else 0)
@@ -159,8 +175,15 @@ def _with_header(integers: Buffer, shape: Shape) -> "np.ndarray[tuple[int], np.d
 
 def _initial(parts: Iterable[Block], layout: Layout) -> Floats:
     values = np.zeros(layout.state_count)
+    first = 0
     for part in parts:
-        for element, component in zip(part.elements, part.components, strict=True):
-            for state in part.shape.cls.states:
-                values[layout.states[f"{element.name}.{state.name}"]] = getattr(component, state.initial)
+        for state in part.shape.cls.states:
+            values[first : first + part.count] = part.values(state.initial)
+            first += part.count
     return values
+
+
+def _threads(wanted: int | None, synapses: int) -> int:
+    if wanted is not None:
+        return wanted
+    return (os.cpu_count() or 1) if synapses >= _BREAK_EVEN else 1

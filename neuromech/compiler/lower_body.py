@@ -35,7 +35,8 @@ def body_signals(tree: Tree, layout: Layout, integers: Buffer, tracked: Iterable
             layout.signals[f"{name}.force_{axis}"] = contact + 3 * i + k
             layout.signals[f"{name}.{axis}"] = point + 3 * i + k
     header["segment_signal"] = first = point + 3 * m
-    names = [name for name in tree.segments if name in set(tracked)]
+    looked_at = set(tracked)
+    names = [name for name in tree.segments if name in looked_at]
     integers.add("track", [tree.segments.index(name) for name in names])
     header["tracked"] = len(names)
     for i, name in enumerate(names):

@@ -1,29 +1,60 @@
-"""Neurons, drives, sensors and muscles → blocks of states, inputs, signals and parameters."""
+"""Neurons, populations, drives, sensors and muscles → blocks of states, inputs, signals and parameters."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
 
 from neuromech.compiler.buffers import Buffer
 from neuromech.compiler.layout import Layout
+from neuromech.compiler.numerics import Floats
 from neuromech.compiler.shape import KindShape, parameter_names
-from neuromech.components.base import Component
+from neuromech.compiler.wiring import varied
+from neuromech.components.base import Component, Port, State
 from neuromech.graph.model import Element, ModelGraph
-from neuromech.units import Quantity
 
 
 @dataclass(frozen=True)
 class Block:
-    """All elements of one component class, sorted by name so that authored order changes nothing."""
+    """All elements of one component class, sorted by name so that authored order changes nothing.
+
+    A population takes as many places of the block as it has neurons.
+    """
 
     shape: KindShape
     elements: tuple[Element, ...]
     components: tuple[Component, ...]
 
+    @cached_property
+    def starts(self) -> list[int]:
+        """Place of the first neuron of each element in the block, and last the number of all."""
+        return [0, *np.cumsum([element.size for element in self.elements]).tolist()]
+
+    @property
+    def count(self) -> int:
+        """Number of places."""
+        return self.starts[-1]
+
+    def values(self, parameter: str) -> Floats:
+        """Return a parameter at every place; (count,), SI units."""
+        found = np.empty(self.count)
+        for element, component, start in zip(self.elements, self.components, self.starts, strict=False):
+            found[start : start + element.size] = _of_element(element, component, parameter)
+        return found
+
+
+def _of_element(element: Element, component: Component, parameter: str) -> Floats | float:
+    population = element.population
+    if population is None or parameter not in population.vary:
+        return float(getattr(component, parameter))
+    return varied(population.vary[parameter], population.size, population.seed, f"{element.name}.{parameter}")
+
 
 def blocks(graph: ModelGraph) -> tuple[Block, ...]:
     """Return the elements with equations, grouped by class, classes sorted by kind."""
     grouped: dict[type[Component], list[Element]] = {}
-    for element in graph.elements("neuron", "drive", "sensor", "muscle"):
+    for element in graph.elements("neuron", "population", "drive", "sensor", "muscle"):
         if isinstance(element.spec, Component):
             grouped.setdefault(type(element.spec), []).append(element)
     waiting = set(_waiting(graph))
@@ -34,60 +65,72 @@ def blocks(graph: ModelGraph) -> tuple[Block, ...]:
 def _waiting(graph: ModelGraph) -> Iterable[str]:
     """Yield what needs an output of a muscle or a sensor."""
     late = {element.name for element in graph.elements("muscle", "sensor")}
-    return (receiver for sender, receiver, _ in graph.connections("wire", "synapse") if sender in late)
+    connected = graph.connections("wire", "synapse", "projection")
+    return (receiver for sender, receiver, _ in connected if sender in late)
 
 
 def _block(cls: type[Component], elements: list[Element], early: bool) -> Block:
     ordered = tuple(sorted(elements, key=lambda element: element.name))
     components = tuple(element.spec for element in ordered if isinstance(element.spec, Component))
-    uniform = frozenset(name for name in parameter_names(cls) if _is_uniform([getattr(c, name) for c in components]))
+    uniform = frozenset(name for name in parameter_names(cls) if _is_uniform(ordered, components, name))
     return Block(KindShape(cls, uniform, early), ordered, components)
 
 
-def _is_uniform(values: Sequence[Quantity]) -> bool:
+def _is_uniform(elements: Iterable[Element], components: Iterable[Component], parameter: str) -> bool:
+    if any(element.population is not None and parameter in element.population.vary for element in elements):
+        return False
+    values = (getattr(component, parameter) for component in components)
     return len({(float(value), value.parameter) for value in values}) == 1
 
 
 def place(blocks: Iterable[Block], header: dict[str, int], layout: Layout) -> None:
     """Give every state, input port and output of every element its position."""
-    inputs = 0
     for block in blocks:
-        cls, name, count = block.shape.cls, block.shape.name, len(block.elements)
+        cls, name, count = block.shape.cls, block.shape.name, block.count
         header[f"{name}.count"] = count
         header[f"{name}.states"] = layout.state_count
-        header[f"{name}.inputs"] = inputs
+        header[f"{name}.inputs"] = layout.input_count
         header[f"{name}.outputs"] = layout.signal_count
-        for i, element in enumerate(block.elements):
-            for k, state in enumerate(cls.states):
-                layout.states[f"{element.name}.{state.name}"] = layout.state_count + k * count + i
-            for k, port in enumerate(cls.inputs):
-                layout.inputs[f"{element.name}.{port.name}"] = inputs + k * count + i
-            for k, port in enumerate(cls.outputs):
-                layout.signals[f"{element.name}.{port.name}"] = layout.signal_count + k * count + i
+        _place(block, cls.states, layout.state_count, layout.states, layout.state_blocks)
+        _place(block, cls.inputs, layout.input_count, layout.inputs, layout.input_blocks)
+        _place(block, cls.outputs, layout.signal_count, layout.signals, layout.signal_blocks)
         layout.state_count += count * len(cls.states)
         layout.signal_count += count * len(cls.outputs)
-        inputs += count * len(cls.inputs)
+        layout.input_count += count * len(cls.inputs)
     header["states"] = layout.state_count
-    header["inputs"] = inputs
+    header["inputs"] = layout.input_count
+
+
+def _place(
+    block: Block, named: tuple[State | Port, ...], first: int, single: dict[str, int], many: dict[str, range]
+) -> None:
+    for element, start in zip(block.elements, block.starts, strict=False):
+        for k, one in enumerate(named):
+            position = first + k * block.count + start
+            if element.population is None:
+                single[f"{element.name}.{one.name}"] = position
+            else:
+                many[f"{element.name}.{one.name}"] = range(position, position + element.size)
 
 
 def parameters(blocks: Iterable[Block], buffer: Buffer, layout: Layout) -> None:
     """Write the parameters of all equations: one number where all instances share it, else one for each."""
     for block in blocks:
         for name in parameter_names(block.shape.cls):
-            values = [getattr(component, name) for component in block.components]
             shared = name in block.shape.uniform
+            values = block.values(name)
             start = buffer.add(f"{block.shape.name}.{name}", values[:1] if shared else values)
-            for i, (element, value) in enumerate(zip(block.elements, values, strict=True)):
-                follow(layout, value, start if shared else start + i, f"{element.path}.{name}")
+            for element, component, at in zip(block.elements, block.components, block.starts, strict=False):
+                if element.population is None or name not in element.population.vary:
+                    places = start if shared else range(start + at, start + at + element.size)
+                    follow(layout, getattr(component, name), places, f"{element.spec_path}.{name}")
 
 
-def follow(layout: Layout, value: float, position: int, path: str) -> None:
-    """Note that the number at a position of p follows a parameter of the document, if it does."""
+def follow(layout: Layout, value: float, positions: int | range, path: str) -> None:
+    """Note that the numbers at one or several positions of p follow a parameter of the document, if they do."""
     parameter = getattr(value, "parameter", None)
     if parameter is None:
         return
     layout.followed.add(path)
-    positions = layout.bound.setdefault(parameter, [])
-    if position not in positions:
-        positions.append(position)
+    places = range(positions, positions + 1) if isinstance(positions, int) else positions
+    layout.bound.setdefault(parameter, []).append(places)

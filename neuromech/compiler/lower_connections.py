@@ -2,86 +2,127 @@
 
 import math
 from collections import defaultdict
-from collections.abc import Iterable
 from dataclasses import dataclass
 
 import networkx as nx
+import numpy as np
 
-from neuromech.compiler.buffers import Buffer, Reserve
+from neuromech.compiler.buffers import Buffer, Reserve, halves
+from neuromech.compiler.bundles import Bundle, bundles, joined
 from neuromech.compiler.layout import Layout
 from neuromech.compiler.lower_components import Block, follow
+from neuromech.compiler.numerics import Floats, Integers
 from neuromech.compiler.shape import argument_names, evaluated_with_body, is_scheduled
 from neuromech.components.base import Component
 from neuromech.graph.model import Connection, ModelGraph
-from neuromech.units import Quantity
-
-_ONE = Quantity(1.0)
 
 
 @dataclass(frozen=True)
-class _Input:
-    row: int
-    sender: str
-    signal: str
-    weight: Quantity
-    delay: float
-    path: str
+class Connected:
+    """What the code of a step must know about the connections, and how many synapses and wires there are."""
+
+    has_delays: bool
+    has_shared_weights: bool
+    synapses: int
 
 
 def connections(
     graph: ModelGraph, layout: Layout, step: float, integers: Buffer, floats: Buffer, work: Reserve
-) -> bool:
-    """Write all rows, weights and delay lines; return whether anything is delayed."""
-    found = sorted(_inputs(graph, layout), key=lambda one: (one.row, one.sender, one.signal, one.path))
-    prompt = [one for one in found if one.delay == 0.0]
-    delayed = [one for one in found if one.delay > 0.0]
-    weights = floats.add("weights", [one.weight for one in (*prompt, *delayed)])
-    for k, one in enumerate((*prompt, *delayed)):
-        follow(layout, one.weight, weights + k, one.path)
-    _rows(prompt, layout, integers)
-    _delay_lines(delayed, len(prompt), layout, step, integers, floats, work)
-    return bool(delayed)
+) -> Connected:
+    """Write all rows, weights and delay lines.
+
+    Weights stand in three parts: those of single synapses and of what varies, sorted by row; one for each bundle that
+    shares it; those of what is delayed.
+    """
+    found = bundles(graph, layout)
+    apart = [one for one in found if one.is_weighted_apart]
+    together = [one for one in found if one.is_weighted_together]
+    delayed = [one for one in found if one.delays is not None]
+    first_shared = _rows(apart, layout, integers, floats)
+    first_delayed = _segments(together, first_shared, layout, integers, floats)
+    _delay_lines(delayed, first_delayed, layout, step, integers, floats, work)
+    return Connected(bool(delayed), bool(together), sum(len(one.sources) for one in found))
 
 
-def _inputs(graph: ModelGraph, layout: Layout) -> Iterable[_Input]:
-    for sender, receiver, connection in graph.connections("synapse", "wire"):
-        weight = getattr(connection.spec, "weight", _ONE)
-        delay = float(getattr(connection.spec, "delay", 0.0))
-        path = f"{connection.path}.weight" if connection.kind == "synapse" else connection.path
-        row = layout.inputs[f"{receiver}.{connection.port}"]
-        yield _Input(row, sender, f"{sender}.{connection.output}", weight, delay, path)
-    for element in graph.elements("muscle"):
-        for port in ("length", "velocity"):
-            if f"{element.name}.{port}" in layout.inputs:
-                row = layout.inputs[f"{element.name}.{port}"]
-                yield _Input(row, element.name, f"{element.name}.{port}", _ONE, 0.0, element.path)
+def _rows(apart: list[Bundle], layout: Layout, integers: Buffer, floats: Buffer) -> int:
+    rows = joined([one.rows for one in apart], np.int64)
+    order = np.argsort(rows, kind="stable")
+    weights = joined([_weights(one) for one in apart], np.float64)[order]
+    start = floats.add("weights", weights)
+    place = np.empty(len(order), dtype=np.int64)
+    place[order] = np.arange(len(order))
+    position = 0
+    for one in apart:
+        if one.weights is None:
+            follow(layout, one.weight, start + int(place[position]), one.path)
+        position += len(one.sources)
+    counts = np.bincount(rows, minlength=layout.input_count)
+    integers.add("row_start", np.concatenate([[0], np.cumsum(counts)]))
+    integers.add("row_source", halves(joined([one.sources for one in apart], np.int32)[order]))
+    return len(weights)
 
 
-def _rows(prompt: list[_Input], layout: Layout, integers: Buffer) -> None:
-    counts = [0] * (len(layout.inputs) + 1)
-    for one in prompt:
-        counts[one.row + 1] += 1
-    for row in range(len(layout.inputs)):
-        counts[row + 1] += counts[row]
-    integers.add("row_start", counts)
-    integers.add("row_source", [layout.signals[one.signal] for one in prompt])
+def _weights(one: Bundle) -> Floats:
+    return np.full(len(one.sources), float(one.weight)) if one.weights is None else one.weights
+
+
+def _segments(together: list[Bundle], first: int, layout: Layout, integers: Buffer, floats: Buffer) -> int:
+    """Write what shares weights: for each row its segments, for each of these its sources and its weight."""
+    start = floats.add("shared_weights", [float(one.weight) for one in together])
+    for k, one in enumerate(together):
+        follow(layout, one.weight, start + k, one.path)
+    rows = joined([np.arange(one.row, one.row + len(one.counts)) for one in together], np.int64)
+    counts = joined([one.counts for one in together], np.int64)
+    weights = np.repeat(first + np.arange(len(together)), [len(one.counts) for one in together])
+    ends = np.cumsum(counts)
+    order = np.argsort(rows, kind="stable")
+    of_row = np.bincount(rows, minlength=layout.input_count)
+    integers.add("segment_start", np.concatenate([[0], np.cumsum(of_row)]))
+    integers.add("segment_first", (ends - counts)[order])
+    integers.add("segment_last", ends[order])
+    integers.add("segment_weight", weights[order])
+    integers.add("segment_source", halves(joined([one.sources for one in together], np.int32)))
+    return first + len(together)
 
 
 def _delay_lines(
-    delayed: list[_Input], first: int, layout: Layout, step: float, integers: Buffer, floats: Buffer, work: Reserve
+    delayed: list[Bundle],
+    first: int,
+    layout: Layout,
+    step: float,
+    integers: Buffer,
+    floats: Buffer,
+    work: Reserve,
 ) -> None:
-    sources = sorted({layout.signals[one.signal] for one in delayed})
-    longest = max((one.delay / step for one in delayed), default=0.0)
-    length = math.ceil(longest) + 2 if delayed else 0
-    integers.header["delayed"] = len(delayed)
+    signals = joined([one.sources for one in delayed], np.int32)
+    delays = joined([one.delays for one in delayed if one.delays is not None], np.float64)
+    rows = joined([one.rows for one in delayed], np.int64)
+    order = np.argsort(rows, kind="stable")
+    sources, slots = np.unique(signals, return_inverse=True)
+    length = math.ceil(float(delays.max()) / step) + 2 if len(delays) else 0
+    integers.header["delayed"] = len(signals)
     integers.header["history_length"] = length
     integers.header["history_width"] = len(sources)
-    integers.add("delayed_row", [one.row for one in delayed])
-    integers.add("delayed_source", [sources.index(layout.signals[one.signal]) for one in delayed])
-    integers.add("delayed_weight", [first + k for k in range(len(delayed))])
+    integers.add("delayed_row", rows[order])
+    integers.add("delayed_source", slots[order])
+    integers.add("delayed_weight", _delayed_weights(delayed, first, layout, floats)[order])
     integers.add("history_slot", sources)
-    floats.add("delay_steps", [one.delay / step for one in delayed])
+    floats.add("delay_steps", (delays / step)[order])
     work.add("history", length * len(sources))
+
+
+def _delayed_weights(delayed: list[Bundle], first: int, layout: Layout, floats: Buffer) -> Integers:
+    """Write the weights of what is delayed, once where they are shared; return which one each synapse has."""
+    values = [np.array([float(one.weight)]) if one.weights is None else one.weights for one in delayed]
+    start = floats.add("delayed_weights", joined(values, np.float64))
+    which, position = [], 0
+    for one, some in zip(delayed, values, strict=True):
+        if one.weights is None:
+            follow(layout, one.weight, start + position, one.path)
+        step = 0 if one.weights is None else 1
+        which.append(first + position + step * np.arange(len(one.sources)))
+        position += len(some)
+    return joined(which, np.int64)
 
 
 def evaluation_order(graph: ModelGraph, blocks: tuple[Block, ...], integers: Buffer) -> None:
@@ -89,21 +130,24 @@ def evaluation_order(graph: ModelGraph, blocks: tuple[Block, ...], integers: Buf
 
     Neurons come in one order, evaluated with the network; muscles and sensors in another, evaluated with the body.
     """
-    place = {element.name: (k, i) for k, block in enumerate(blocks) for i, element in enumerate(block.elements)}
+    places: dict[str, Integers] = {}
     passing: dict[bool, set[str]] = defaultdict(set)
-    for block in blocks:
+    for k, block in enumerate(blocks):
         if is_scheduled(block.shape):
             passing[evaluated_with_body(block.shape.cls)].update(element.name for element in block.elements)
+            for element, start in zip(block.elements, block.starts, strict=False):
+                instances = np.arange(start, start + element.size)
+                places[element.name] = np.column_stack([np.full(element.size, k), instances]).ravel()
     for with_body, name in ((False, "network"), (True, "mechanics")):
-        order = _sorted(graph, passing[with_body])
-        integers.add(f"{name}_order", [number for element in order for number in place[element]])
-        integers.header[f"{name}_ordered"] = len(order)
+        order = joined([places[element] for element in _sorted(graph, passing[with_body])], np.int64)
+        integers.add(f"{name}_order", order)
+        integers.header[f"{name}_ordered"] = len(order) // 2
 
 
 def _sorted(graph: ModelGraph, names: set[str]) -> list[str]:
     inner = nx.DiGraph()
     inner.add_nodes_from(sorted(names))
-    for sender, receiver, connection in graph.connections("synapse", "wire"):
+    for sender, receiver, connection in graph.connections("synapse", "projection", "wire"):
         if sender in names and receiver in names and _passes_at_once(graph, receiver, connection):
             inner.add_edge(sender, receiver)
     return list(nx.lexicographical_topological_sort(inner))

@@ -12,6 +12,7 @@ from neuromech.compiler.exponential import cosh, exp, log
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
+Places = NDArray[np.uint32]
 
 # Not-a-number and infinity keep their meaning: divergence is looked for.
 _FAST_MATH = {"contract", "arcp", "nsz", "afn", "reassoc"}
@@ -35,6 +36,44 @@ def elementwise(function: Callable[..., Any]) -> Any:
     names = {**function.__globals__, "exp": exp, "cosh": cosh, "log": log}
     own = FunctionType(function.__code__, names, function.__name__, function.__defaults__)
     return numba.njit(nogil=True, error_model="numpy", fastmath=_FAST_MATH, forceinline=True)(own)
+
+
+def _in_order(function: Callable[..., Any]) -> Any:
+    """Compile a function that is inlined and whose sums are not reordered: the same bits wherever it is called.
+
+    Compilers would turn the loops below into gather instructions, which take three times as long.
+    """
+    return numba.njit(nogil=True, error_model="numpy", fastmath={"contract"}, forceinline=True)(function)
+
+
+@_in_order
+def sum_at(signals: Floats, places: Places) -> float:
+    """Return the sum of signals at some places."""
+    fourth = len(places) // 4
+    a, b, c, d = 0.0, 0.0, 0.0, 0.0
+    for k in range(fourth):
+        a += signals[places[4 * k]]
+        b += signals[places[4 * k + 1]]
+        c += signals[places[4 * k + 2]]
+        d += signals[places[4 * k + 3]]
+    for k in range(4 * fourth, len(places)):
+        a += signals[places[k]]
+    return (a + b) + (c + d)
+
+
+@_in_order
+def weighted_sum_at(weights: Floats, signals: Floats, places: Places) -> float:
+    """Return the weighted sum of signals at some places."""
+    fourth = len(places) // 4
+    a, b, c, d = 0.0, 0.0, 0.0, 0.0
+    for k in range(fourth):
+        a += weights[4 * k] * signals[places[4 * k]]
+        b += weights[4 * k + 1] * signals[places[4 * k + 1]]
+        c += weights[4 * k + 2] * signals[places[4 * k + 2]]
+        d += weights[4 * k + 3] * signals[places[4 * k + 3]]
+    for k in range(4 * fourth, len(places)):
+        a += weights[k] * signals[places[k]]
+    return (a + b) + (c + d)
 
 
 @equation

@@ -32,6 +32,7 @@ class Program:
         path_points: most points that one straight-line path has.
         initial: (states,) values at time zero as the components give them, SI units.
         substeps: network steps in one tick; a tick is a body step, or a network step where there is no body.
+        threads: how many share the synapses.
     """
 
     graph: ModelGraph
@@ -47,6 +48,7 @@ class Program:
     path_points: int
     initial: Floats
     substeps: int
+    threads: int
 
     @property
     def module(self) -> ModuleType:
@@ -70,7 +72,7 @@ class Memory:
     def __init__(self, program: Program) -> None:
         self.x = program.initial.copy()
         self.s = np.zeros(program.layout.signal_count)
-        self.u = np.zeros(len(program.layout.inputs))
+        self.u = np.zeros(program.layout.input_count)
         self.p = program.parameters.copy()
         self.F = np.zeros(program.work_size)
         self.I = program.integers.copy()

@@ -12,11 +12,12 @@ FixedStep = Literal["rk4", "exponential_euler"]
 # Offsets and counts at the front of the integer buffer, by name; the generated code reads them from there.
 COMMON = (
     "states", "inputs", "base", "stages", "row_start", "row_source", "weights",
+    "segment_start", "segment_first", "segment_last", "segment_weight", "segment_source",
     "delayed", "delayed_row", "delayed_source", "delayed_weight", "delay_steps",
     "history", "history_length", "history_width", "history_slot",
     "network_order", "network_ordered", "mechanics_order", "mechanics_ordered",
     "driven", "driven_start", "breakpoint_time", "breakpoint_value", "bound_start", "bound_slot",
-    "groups", "group_every", "group_start", "group_row", "slot", "substeps",
+    "groups", "group_every", "group_start", "group_row", "slot", "mean_first", "mean_count", "team", "substeps",
     "joints", "segments", "contacts", "muscles", "tracked", "body", "torque", "point", "segment_signal",
     "track", "path_first", "path_joint", "path_kind", "path_length", "path_reference", "path_arm",
     "path_point", "path_point_first", "path_segment", "moved", "length_signal", "velocity_signal",
@@ -58,6 +59,8 @@ class Shape:
     method: FixedStep
     has_body: bool
     has_delays: bool
+    has_shared_weights: bool
+    has_threads: bool
 
     def header(self) -> dict[str, int]:
         """Return name -> position in the integer buffer for every offset and count."""

@@ -1,16 +1,29 @@
 """The parts of a generated step module that do not depend on the kinds in use. <name> is an offset or a count."""
 
+ROWS = '''
+@equation
+def rows_between(s, u, p, F, I, first, last):
+    """Sum the weighted signals that reach the input ports from `first` to `last`."""
+    row_start, weights, base = <row_start>, <weights>, <base>
+    source = I[<row_source> :].view(np.uint32)
+    shared_source = I[<segment_source> :].view(np.uint32)
+    for row in range(first, last):
+        a, b = I[row_start + row], I[row_start + row + 1]
+        total = F[base + row] + weighted_sum_at(p[weights + a : weights + b], s, source[a:b])
+        if <shared weights>:
+            for g in range(I[<segment_start> + row], I[<segment_start> + row + 1]):
+                some = shared_source[I[<segment_first> + g] : I[<segment_last> + g]]
+                total += p[weights + I[<segment_weight> + g]] * sum_at(s, some)
+        u[row] = total
+'''
+
 GATHER = '''
 @equation
 def gather(s, u, p, F, I, first, rows, stride, ports):
     """Sum the weighted signals that reach `ports` blocks of `rows` input ports each."""
-    row_start, row_source, weights, base = <row_start>, <row_source>, <weights>, <base>
     for port in range(ports):
-        for row in range(first + port * stride, first + port * stride + rows):
-            total = F[base + row]
-            for k in range(I[row_start + row], I[row_start + row + 1]):
-                total += p[weights + k] * s[I[row_source + k]]
-            u[row] = total
+        start = first + port * stride
+        rows_between(s, u, p, F, I, start, start + rows)
 '''
 
 NETWORK = '''
@@ -81,9 +94,21 @@ def apply_protocol(t, p, I):
 
 
 @equation
-def record(tick, x, s, u, I, R):
-    """Copy the signals of every record group that is due. A slot counts through states, signals and inputs."""
+def mean(k, x, s, u, I):
+    """Return the k-th mean over a population."""
+    first, count = I[<mean_first> + k], I[<mean_count> + k]
     states, signals = x.shape[0], s.shape[0]
+    if first < states:
+        return np.sum(x[first : first + count]) / count
+    if first < states + signals:
+        return np.sum(s[first - states : first - states + count]) / count
+    return np.sum(u[first - states - signals : first - states - signals + count]) / count
+
+
+@equation
+def record(tick, x, s, u, I, R):
+    """Copy the signals of every record group that is due. A slot counts through states, signals, inputs and means."""
+    states, signals, inputs = x.shape[0], s.shape[0], u.shape[0]
     for group in range(<groups>):
         every = I[<group_every> + group]
         if tick % every:
@@ -96,8 +121,10 @@ def record(tick, x, s, u, I, R):
                 R[row + k - first] = x[slot]
             elif slot < states + signals:
                 R[row + k - first] = s[slot - states]
-            else:
+            elif slot < states + signals + inputs:
                 R[row + k - first] = u[slot - states - signals]
+            else:
+                R[row + k - first] = mean(slot - states - signals - inputs, x, s, u, I)
 
 
 @equation
@@ -358,5 +385,3 @@ def advance(number, dt, x, s, u, p, F, I):
         network_step(step, dt / steps, x, s, u, p, F, I)
     return first_bad(x)
 '''
-
-NETWORK = GATHER + "\n" + NETWORK

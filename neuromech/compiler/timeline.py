@@ -1,8 +1,10 @@
 """Protocol → breakpoints of every parameter that moves during a run."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sized
 from dataclasses import dataclass
 from itertools import pairwise
+
+import numpy as np
 
 from neuromech.compiler.buffers import Buffer
 from neuromech.compiler.layout import Layout
@@ -35,13 +37,13 @@ def timeline(document: Document, layout: Layout, integers: Buffer, floats: Buffe
         raise DocumentError(problems)
     names = sorted(driven)
     points = [_breakpoints(quantity(str(experiment.parameters[name].value)), driven[name]) for name in names]
-    bound = [layout.bound.get(name, []) for name in names]
+    bound = [layout.bound_to(name) for name in names]
     integers.header["driven"] = len(names)
     integers.add("driven_start", _starts(points))
     floats.add("breakpoint_time", [time for some in points for time, _ in some])
     floats.add("breakpoint_value", [value for some in points for _, value in some])
     integers.add("bound_start", _starts(bound))
-    integers.add("bound_slot", [slot for slots in bound for slot in slots])
+    integers.add("bound_slot", np.concatenate([np.zeros(0, dtype=np.int64), *bound]))
 
 
 def _changes(protocol: Protocol) -> dict[str, list[_Change]]:
@@ -100,7 +102,7 @@ def _walk(value: object, path: str) -> Iterator[tuple[str, str]]:
             yield from _walk(item, f"{path}.{index}")
 
 
-def _starts(lists: Iterable[list[object]] | Iterable[list[int]] | Iterable[list[tuple[float, float]]]) -> list[int]:
+def _starts(lists: Iterable[Sized]) -> list[int]:
     starts = [0]
     for some in lists:
         starts.append(starts[-1] + len(some))

@@ -7,7 +7,7 @@ import networkx as nx
 
 from neuromech.errors import DocumentError
 from neuromech.graph.check import VALUE_RULES, broken
-from neuromech.graph.connect import Edge, crossings, structure, synapses, wires
+from neuromech.graph.connect import Edge, crossings, projections, structure, synapses, wires
 from neuromech.graph.declare import declared, two_definitions
 from neuromech.graph.model import Element, ModelGraph
 from neuromech.graph.names import Names, Resolver
@@ -30,7 +30,7 @@ def build(document: Document) -> ModelGraph:
     problems += two_definitions(document, written)
     resolver = Resolver(document, Names(written))
     elements = resolved(written, resolver)
-    synaptic = list(synapses(resolver))
+    synaptic = [*synapses(resolver), *projections(resolver)]
     body, body_problems = (None, []) if _dangling_joint(elements, resolver) else body_model(document, elements)
     problems += resolver.problems + body_problems
     if problems:

@@ -22,6 +22,12 @@ from neuromech.graph.checks.paths import (
     path_crosses_no_joint,
     path_turns_back,
 )
+from neuromech.graph.checks.populations import (
+    too_few_senders,
+    too_many_synapses,
+    two_ways_of_wiring,
+    varied_parameter,
+)
 from neuromech.graph.checks.ports import port_missing, unit_clash
 from neuromech.graph.checks.signals import (
     claim_on_unrecorded,
@@ -41,6 +47,10 @@ VALUE_RULES: tuple[Rule, ...] = (
     inertia_of_no_body,
     contact_without_ground,
     delay_below_step,
+    varied_parameter,
+    two_ways_of_wiring,
+    too_few_senders,
+    too_many_synapses,
 )
 """Rules that look at one element at a time, and so hold in a graph with missing edges too."""
 

@@ -29,6 +29,20 @@ def synapses(resolver: Resolver) -> Iterator[Edge]:
                         yield source.name, target.name, connection
 
 
+def projections(resolver: Resolver) -> Iterator[Edge]:
+    """Yield the projections of every scope whose two ends exist; the resolver notes the others."""
+    for scope, path, content in scopes(resolver.document.experiment):
+        for name, projection in content.network.projections.items():
+            here = qualified(path, f"network.projections.{name}")
+            port = projection.synapse.port
+            source = resolver.resolve(projection.sender, scope, f"{here}.sender", SENDER)
+            target = resolver.resolve(projection.receiver, scope, f"{here}.receiver", receiver(port))
+            if source is not None and target is not None:
+                output, own = _synaptic_output(source), qualified(scope, name)
+                connection = Connection("projection", here, output, port, projection.synapse, projection, own)
+                yield source.name, target.name, connection
+
+
 def _synaptic_output(source: Element) -> str:
     assert isinstance(source.spec, Component)
     assert source.spec.synaptic_output is not None

@@ -12,6 +12,7 @@ Curve = tuple[Point, Point, Point]
 RADIUS = 0.36
 REACH: dict[NodeFamily, Point] = {
     "neuron": (RADIUS, RADIUS),
+    "population": (RADIUS, RADIUS),
     "drive": (RADIUS, RADIUS),
     "sensor": (RADIUS, RADIUS),
     "muscle": (0.49, 0.25),

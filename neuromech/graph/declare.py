@@ -42,12 +42,15 @@ def declared(document: Document) -> tuple[list[Element], list[Problem]]:
     return elements, problems
 
 
-def _of_scope(scope: str, path: str, content: Scope) -> Iterator[Element]:
-    network = qualified(path, "network")
+def _of_scope(scope: str, scope_path: str, content: Scope) -> Iterator[Element]:
+    network = qualified(scope_path, "network")
     yield from _of_map(scope, f"{network}.neurons", "neuron", content.network.neurons)
+    for name, population in content.network.populations.items():
+        path = f"{network}.populations.{name}"
+        yield Element(qualified(scope, name), "population", population.neuron, path, scope, population)
     yield from _of_map(scope, f"{network}.drives", "drive", content.network.drives)
-    yield from _of_map(scope, qualified(path, "muscles"), "muscle", content.muscles)
-    yield from _of_map(scope, qualified(path, "sensors"), "sensor", content.sensors)
+    yield from _of_map(scope, qualified(scope_path, "muscles"), "muscle", content.muscles)
+    yield from _of_map(scope, qualified(scope_path, "sensors"), "sensor", content.sensors)
 
 
 def _of_body(scope: str, path: str, body: BodyParts) -> Iterator[Element]:

@@ -1,4 +1,4 @@
-"""What differs between two models: elements and synapses, their parameters, and the settings of the document."""
+"""What differs between two models: elements, synapses and projections, their values, and settings of the document."""
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
@@ -15,7 +15,7 @@ _SECTIONS = ("protocol", "solver", "world")
 
 @dataclass(frozen=True, slots=True)
 class Item:
-    """An element or a synapse that only one of two models has."""
+    """An element, a synapse or a projection that only one of two models has."""
 
     what: str
     name: str
@@ -62,7 +62,7 @@ class Difference:
 
 @dataclass(frozen=True, slots=True)
 class _Entry:
-    """An element or a synapse on its own: what to call it, where it stands, and its values by field."""
+    """An element, a synapse or a projection on its own: what to call it, where it stands, and its values by field."""
 
     item: Item
     path: str
@@ -84,20 +84,31 @@ def _path(change: Change) -> str:
 
 
 def _entries(graph: ModelGraph) -> dict[tuple[str, ...], _Entry]:
-    entries = {(element.family, element.name): _element(element) for element in graph.elements()}
+    entries: dict[tuple[str, ...], _Entry] = {
+        (element.family, element.name): _element(element) for element in graph.elements()
+    }
     synapses = (_synapse(*edge) for edge in graph.connections("synapse"))
-    return entries | {("synapse", entry.item.kind, entry.item.name): entry for entry in synapses}
+    entries |= {("synapse", entry.item.kind, entry.item.name): entry for entry in synapses}
+    projections = (_projection(connection) for _, _, connection in graph.connections("projection"))
+    return entries | {("projection", entry.item.name): entry for entry in projections}
 
 
 def _element(element: Element) -> _Entry:
     kind = element.spec.kind_name() if isinstance(element.spec, Component) else ""
-    return _Entry(Item(element.family, element.name, kind), element.path, values(element.spec, ""))
+    found = values(element.population or element.spec, "")
+    return _Entry(Item(element.family, element.name, kind), element.path, found)
 
 
 def _synapse(sender: str, receiver: str, connection: Connection) -> _Entry:
     assert isinstance(connection.spec, Component)
     item = Item("synapse", f"{sender} → {receiver}", connection.spec.kind_name())
     return _Entry(item, connection.path, values(connection.spec, ""))
+
+
+def _projection(connection: Connection) -> _Entry:
+    assert connection.projection is not None
+    item = Item("projection", connection.name, connection.projection.synapse.kind_name())
+    return _Entry(item, connection.path, values(connection.projection, ""))
 
 
 def _changes(one: _Entry, other: _Entry) -> Iterator[Change]:

@@ -12,7 +12,7 @@ from matplotlib.patches import FancyBboxPatch
 from neuromech.components.base import Synapse
 from neuromech.graph.curves import Node, between
 from neuromech.graph.layout import DRAWN, Layout, Panel, bounds, layout
-from neuromech.graph.model import Connection, ModelGraph, NodeFamily
+from neuromech.graph.model import Connection, Element, ModelGraph, NodeFamily
 from neuromech.graph.strokes import INK, Sign, Stroke, draw_node, draw_stroke
 
 _INCHES = 0.62
@@ -20,6 +20,7 @@ _LEGEND = 2.2
 _LEGEND_WIDTH = 7.1
 _TEXT_SIZE: dict[str, tuple[float, float]] = {
     "neuron": (30, 24),
+    "population": (26, 21),
     "drive": (34, 22),
     "sensor": (30, 24),
     "muscle": (40, 20),
@@ -58,7 +59,7 @@ def figure(graph: ModelGraph) -> Figure:
     for name, place in found.places.items():
         node = Node(graph.element(name).family, place)
         draw_node(axes, node)
-        _write(axes, node, name.rpartition(".")[2])
+        _write(axes, node, _label(graph.element(name)))
     _write_crossed_joints(axes, graph, found)
     families = [family for family in DRAWN if any(graph.elements(family))]
     _draw_legend(axes, left, bottom, families, _largest_weight(graph))
@@ -88,7 +89,7 @@ def _draw_connections(axes: Axes, graph: ModelGraph, found: Layout) -> None:
     largest = _largest_weight(graph)
     nodes = {name: Node(graph.element(name).family, place) for name, place in found.places.items()}
     drawn = set[tuple[str, str]]()
-    for sender, receiver, connection in graph.connections("wire", "synapse"):
+    for sender, receiver, connection in graph.connections("wire", "synapse", "projection"):
         repeated_wire = connection.kind == "wire" and (sender, receiver) in drawn
         if sender in nodes and receiver in nodes and not repeated_wire:
             curve = between(nodes[sender], nodes[receiver], nodes.values())
@@ -97,7 +98,7 @@ def _draw_connections(axes: Axes, graph: ModelGraph, found: Layout) -> None:
 
 
 def _largest_weight(graph: ModelGraph) -> float:
-    return max((_weight(connection) for _, _, connection in graph.connections("synapse")), default=0.0)
+    return max((_weight(connection) for _, _, connection in graph.connections("synapse", "projection")), default=0.0)
 
 
 def _stroke(connection: Connection, largest: float) -> Stroke:
@@ -131,6 +132,11 @@ def _write_crossed_joints(axes: Axes, graph: ModelGraph, found: Layout) -> None:
         x, y = found.places[muscle]
         side = 1.0 if y > 0.0 else -1.0
         axes.text(x, y + 0.38 * side, ", ".join(names), fontsize=5, color="#6b6b6b", ha="center", va="center", zorder=6)
+
+
+def _label(element: Element) -> str:
+    name = element.name.rpartition(".")[2]
+    return f"{name}_×{element.size}" if element.population else name
 
 
 def _lines(name: str) -> list[str]:

@@ -12,8 +12,8 @@ from neuromech.graph.model import Connection, Element, ModelGraph
 def export_graphml(graph: ModelGraph, file: Path) -> None:
     """Write the graph with plain attributes.
 
-    Nodes have family, kind, layer, scope and path; edges have connection, path, output, port and unit, and synapses
-    kind, sign, weight and delay_ms besides.
+    Nodes have family, kind, layer, scope, path and size (1, but for populations); edges have connection, path, output,
+    port and unit, synapses and projections kind, sign, weight and delay_ms besides.
 
     Raises:
         OSError: the file cannot be written.
@@ -31,7 +31,7 @@ def plain(graph: ModelGraph) -> "nx.MultiDiGraph[str]":
     return result
 
 
-def _node(element: Element) -> dict[str, str]:
+def _node(element: Element) -> dict[str, str | int]:
     kind = element.spec.kind_name() if isinstance(element.spec, Component) else element.family
     layer = getattr(element.spec, "layer", None) or ""
     return {
@@ -40,6 +40,7 @@ def _node(element: Element) -> dict[str, str]:
         "layer": layer,
         "scope": element.scope,
         "path": element.path,
+        "size": element.size,
     }
 
 

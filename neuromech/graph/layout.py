@@ -8,7 +8,7 @@ from math import ceil
 from neuromech.components.base import Neuron
 from neuromech.graph.model import Element, ModelGraph, NodeFamily
 
-DRAWN: tuple[NodeFamily, ...] = ("drive", "sensor", "neuron", "muscle")
+DRAWN: tuple[NodeFamily, ...] = ("drive", "sensor", "neuron", "population", "muscle")
 ROW_TITLES = (
     "Drives, sensors",
     "Rhythm generator",
@@ -100,7 +100,7 @@ def _ordered(graph: ModelGraph, rows: Mapping[int, list[str]]) -> dict[int, list
     """Return the rows in an order that keeps connected elements near each other (repeated barycentres)."""
     members = {name for row in rows.values() for name in row}
     links = {name: set[str]() for name in members}
-    for sender, receiver, _ in graph.connections("synapse", "wire"):
+    for sender, receiver, _ in graph.connections("synapse", "projection", "wire"):
         if sender in members and receiver in members and sender != receiver:
             links[sender].add(receiver)
             links[receiver].add(sender)

@@ -8,10 +8,10 @@ import networkx as nx
 
 from neuromech.components.base import Component
 from neuromech.spec.document import Document
-from neuromech.spec.model import Contact, Joint, Root, Segment, World
+from neuromech.spec.model import Contact, Joint, Population, Projection, Root, Segment, World
 
-NodeFamily = Literal["neuron", "drive", "muscle", "sensor", "joint", "segment", "contact"]
-EdgeKind = Literal["synapse", "wire", "crossing", "structure"]
+NodeFamily = Literal["neuron", "population", "drive", "muscle", "sensor", "joint", "segment", "contact"]
+EdgeKind = Literal["synapse", "projection", "wire", "crossing", "structure"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,9 +21,10 @@ class Element:
     Args:
         name: qualified name, which is the node itself.
         family: what kind of thing it is.
-        spec: the component, or the segment, joint or contact as written.
+        spec: the component, or the segment, joint or contact as written; of a population, its neuron.
         path: dotted path in the document.
         scope: qualified name of the instance that holds it, empty for the document.
+        population: size and variation of a population, None for anything else.
     """
 
     name: str
@@ -31,15 +32,27 @@ class Element:
     spec: Component | Segment | Joint | Contact
     path: str
     scope: str
+    population: Population | None = None
+
+    @property
+    def size(self) -> int:
+        """How many there are: the neurons of a population, else one."""
+        return self.population.size if self.population else 1
+
+    @property
+    def spec_path(self) -> str:
+        """Dotted path of `spec` in the document."""
+        return f"{self.path}.neuron" if self.population else self.path
 
 
 @dataclass(frozen=True, slots=True)
 class Connection:
     """What an edge of the graph stands for. Stored as the edge attribute `connection`.
 
-    `synapse`: weighted and possibly delayed, from an output of the sender into an input port of a neuron. `wire`: an
-    output feeds an input port as it is (weight 1). `crossing`: a muscle's path crosses a joint. `structure`: parent
-    segment to joint, joint to child segment, segment to contact.
+    `synapse`: weighted and possibly delayed, from an output of the sender into an input port of a neuron; where an end
+    is a population, from or to each of its neurons. `projection`: the same, wired as `projection` says; `name` is its
+    qualified name. `wire`: an output feeds an input port as it is (weight 1). `crossing`: a muscle's path crosses a
+    joint. `structure`: parent segment to joint, joint to child segment, segment to contact.
     """
 
     kind: EdgeKind
@@ -47,6 +60,13 @@ class Connection:
     output: str = ""
     port: str = ""
     spec: Component | None = None
+    projection: Projection | None = None
+    name: str = ""
+
+    @property
+    def spec_path(self) -> str:
+        """Dotted path of `spec` in the document."""
+        return f"{self.path}.synapse" if self.projection else self.path
 
 
 @dataclass(frozen=True, slots=True)

@@ -34,12 +34,12 @@ SENDER = Wanted(
 
 
 def receiver(port: str) -> Wanted:
-    """Return the requirement for the receiver of a synapse into `port`: a neuron, or what else has such a port."""
+    """Return the requirement for the receiver of a synapse into `port`: neurons, or what else has such a port."""
 
     def accepts(element: Element) -> bool:
         spec = element.spec
         return isinstance(spec, Component) and (
-            element.family == "neuron" or any(found.name == port for found in spec.inputs)
+            element.family in ("neuron", "population") or any(found.name == port for found in spec.inputs)
         )
 
     return Wanted("a neuron", accepts)

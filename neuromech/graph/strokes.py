@@ -15,7 +15,7 @@ Sign = Literal["excitatory", "inhibitory", "wire"]
 
 
 INK = {"excitatory": "#14507a", "inhibitory": "#b8321f", "wire": "#a8a8a8"}
-FILL = {"neuron": "#ffffff", "drive": "#f6dd8b", "sensor": "#cfe5c8", "muscle": "#eac5c0"}
+FILL = {"neuron": "#ffffff", "population": "#ffffff", "drive": "#f6dd8b", "sensor": "#cfe5c8", "muscle": "#eac5c0"}
 _HEAD = 0.13
 _DOT = 0.075
 
@@ -29,7 +29,7 @@ class Stroke:
 
 
 def draw_node(axes: Axes, node: Node) -> None:
-    """Draw a node: circle (neuron), hexagon (drive), square (sensor) or long box (muscle)."""
+    """Draw a node: circle (neuron), double one (population), hexagon (drive), square (sensor) or long box (muscle)."""
     style: dict[str, Any] = {"facecolor": FILL[node.family], "edgecolor": "#303030", "linewidth": 0.8, "zorder": 3}
     x, y = node.place
     width, height = REACH[node.family]
@@ -42,6 +42,8 @@ def draw_node(axes: Axes, node: Node) -> None:
         axes.add_patch(RegularPolygon(node.place, 6, radius=1.25 * width, orientation=pi / 6, **style))
     else:
         axes.add_patch(Circle(node.place, width, **style))
+        if node.family == "population":
+            axes.add_patch(Circle(node.place, 0.88 * width, **style))
 
 
 def draw_stroke(axes: Axes, curve: Curve, stroke: Stroke) -> None:

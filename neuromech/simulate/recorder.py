@@ -8,7 +8,7 @@ import numpy as np
 from neuromech.compiler.lower import recorded
 from neuromech.compiler.numerics import Floats, Integers
 from neuromech.compiler.program import Program
-from neuromech.graph.signals import signals
+from neuromech.graph.signals import signals, split
 from neuromech.simulate.recording import GroupData, Outcome, Provenance, Recording
 from neuromech.units import si_unit
 
@@ -23,7 +23,7 @@ class Recorder:
         self._program = program
         self._ticks = ticks
         groups = program.graph.document.experiment.record
-        self._names = {name: recorded(program.layout, group.signals, program.graph) for name, group in groups.items()}
+        self._names = {name: recorded(group.signals, program.graph) for name, group in groups.items()}
         self._every = {name: round(float(group.every) / program.tick) for name, group in groups.items()}
         start = 0
         self._start: dict[str, int] = {}
@@ -61,4 +61,10 @@ class Recorder:
         start = self._start[name]
         values = self.samples[start : start + rows * len(names)].reshape(rows, len(names))
         time = np.arange(rows, dtype=np.float64) * (self._every[name] * self._program.tick)
-        return GroupData(time, tuple(names), values, tuple(si_unit(units[signal]) for signal in names))
+        return GroupData(time, tuple(names), values, tuple(si_unit(units[_listed(signal)]) for signal in names))
+
+
+def _listed(name: str) -> str:
+    """Return the name that a signal has in the list of all, which has populations as wholes."""
+    element, _, quantity = split(name)
+    return f"{element}.{quantity}"

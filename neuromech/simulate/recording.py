@@ -3,7 +3,6 @@
 import json
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
-from fnmatch import fnmatchcase
 from typing import Any, Literal
 
 import numpy as np
@@ -11,6 +10,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from neuromech.errors import RecordingError, did_you_mean
+from neuromech.graph.signals import matching
 from neuromech.units import unit_factor
 
 Array = NDArray[np.float64]
@@ -170,8 +170,9 @@ class Recording:
         return list(self._columns)
 
     def match(self, *patterns: str) -> list[str]:
-        """Return the signals that match any of the patterns (`*` and `?`), in recorded order."""
-        return [name for name in self._columns if any(fnmatchcase(name, pattern) for pattern in patterns)]
+        """Return the signals that match any of the patterns (`*`, `?`, `pool[0:10]`), in recorded order."""
+        found = {name for pattern in patterns for name in matching(pattern, self._columns)}
+        return [name for name in self._columns if name in found]
 
     def signal(self, name: str) -> tuple[Array, Array]:
         """Return the times (s), shape (n,), and values, shape (n,), of a signal.

@@ -48,7 +48,7 @@ class _Run:
         return Outcome("diverged", self.now, f"the torque at joint {joint} is not a finite number any more")
 
     def bad_state(self, position: int) -> Outcome:
-        name = next(name for name, place in self.program.layout.states.items() if place == position)
+        name = self.program.layout.state_name(position)
         return Outcome("diverged", self.now, f"state {name} is not a finite number any more")
 
 

@@ -47,11 +47,47 @@ class Parameter(SpecModel):
     source: str = ""
 
 
+class Uniform(SpecModel):
+    """A uniform distribution over an interval; the unit is that of the value it stands for."""
+
+    uniform: tuple[Written, Written]
+
+
+Seed = Annotated[int, Field(ge=0, strict=True)]
+
+
+class Population(SpecModel):
+    """Many neurons of one kind. `vary` gives each its own value of a parameter; all else is as `neuron` says."""
+
+    size: Annotated[int, Field(ge=1, le=10_000_000, strict=True, description="number of neurons")]
+    neuron: Annotated[Neuron, OfCatalogue("neuron")]
+    vary: Annotated[dict[str, Uniform], Field(description="parameters of the neuron that differ")] = {}
+    seed: Annotated[Seed, Field(description="of the values that vary")] = 0
+
+
+class Projection(SpecModel):
+    """Synapses of one kind from a population to another, or between a population and a single element.
+
+    Each receiver gets `in_degree` different senders, or each sender with `probability`; all senders where neither is
+    given. A neuron of a population may be a sender to itself. The seed of the run does not change the wiring.
+    """
+
+    sender: str
+    receiver: str
+    synapse: Annotated[Synapse, OfCatalogue("synapse")]
+    in_degree: Annotated[int | None, Field(ge=1, strict=True, description="senders of each receiver")] = None
+    probability: Annotated[Quantity, DIMENSIONLESS.within(0.0, 1.0)] | None = None
+    vary: Annotated[dict[str, Uniform], Field(description="parameters of the synapse that differ")] = {}
+    seed: Annotated[Seed, Field(description="of the wiring and of the values that vary")] = 0
+
+
 class Network(SpecModel):
-    """Neurons, drives and the synapses between them, as {kind: {sender: {receiver: synapse}}}."""
+    """Neurons, populations, drives and what connects them; synapses as {kind: {sender: {receiver: synapse}}}."""
 
     neurons: dict[Name, Annotated[Neuron, OfCatalogue("neuron")]] = {}
     drives: dict[Name, Annotated[Drive, OfCatalogue("drive")]] = {}
+    populations: dict[Name, Population] = {}
+    projections: dict[Name, Projection] = {}
     synapses: Annotated[
         dict[str, dict[str, dict[str, Annotated[Synapse, OfCatalogue("synapse")]]]], KindFromKey("synapse", "weight")
     ] = {}
@@ -206,14 +242,12 @@ class Solver(SpecModel):
     step: PositiveTime = quantity("0.5 ms")
     body_step: PositiveTime = quantity("1 ms")
     coupling: Literal["observer_implicit", "explicit"] = "observer_implicit"
+    threads: Annotated[
+        int | None,
+        Field(ge=1, strict=True, description="that share the synapses; by default all cores for large networks"),
+    ] = None
     relative_tolerance: Annotated[Quantity, DIMENSIONLESS.positive] = quantity("1e-6")
     absolute_tolerance: Annotated[Quantity, DIMENSIONLESS.positive] = quantity("1e-9")
-
-
-class Uniform(SpecModel):
-    """A uniform distribution over an interval; the unit is that of the state."""
-
-    uniform: tuple[Written, Written]
 
 
 class Ramp(SpecModel):
@@ -243,7 +277,7 @@ class Protocol(SpecModel):
     """What happens in time. `initial` sets states by name pattern at time zero: a value, or a distribution."""
 
     duration: PositiveTime
-    seed: Annotated[int, Field(ge=0, strict=True)] = 0
+    seed: Seed = 0
     initial: dict[str, Written | Uniform] = {}
     ramps: dict[Name, Ramp] = {}
     events: dict[Name, Event] = {}

@@ -128,6 +128,8 @@ def _problem(error: ErrorDetails, place: _Place, catalogue: Catalogue) -> tuple[
         return _word(place, shape, got), False
     if code == "greater_than_equal":
         return Problem("out-of-range", place.path, f"must be at least {context['ge']}", got), False
+    if code == "less_than_equal":
+        return Problem("out-of-range", place.path, f"must be at most {context['le']}", got), False
     if code == "too_short" and not isinstance(shape, Items):
         return Problem("too-few", place.path, "must not be empty", None), False
     if isinstance(shape, Items) and isinstance(place.node, ListNode):

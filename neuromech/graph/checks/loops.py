@@ -16,8 +16,8 @@ def algebraic_loop(graph: ModelGraph) -> Iterator[Problem]:
 
     Sensors are evaluated once per body step and held, so a loop through neurons and sensors is none.
     """
-    for family in ("neuron", "sensor"):
-        links = _instant_links(graph, family)
+    for families in (("neuron", "population"), ("sensor",)):
+        links = _instant_links(graph, families)
         for component in nx.strongly_connected_components(links):
             inner = [edge for edge in links.edges if component.issuperset(edge)]
             if inner:
@@ -32,11 +32,11 @@ def _problem(graph: ModelGraph, links: "nx.DiGraph[str]", inner: list[tuple[str,
     return graph.document.problem("algebraic-loop", path, "closes an algebraic loop", around, hint)
 
 
-def _instant_links(graph: ModelGraph, family: str) -> "nx.DiGraph[str]":
+def _instant_links(graph: ModelGraph, families: tuple[str, ...]) -> "nx.DiGraph[str]":
     links = nx.DiGraph()
-    for sender, receiver, connection in graph.connections("synapse", "wire"):
+    for sender, receiver, connection in graph.connections("synapse", "projection", "wire"):
         ends = graph.element(sender), graph.element(receiver)
-        if all(end.family == family for end in ends) and _passes_at_once(ends[1], connection):
+        if all(end.family in families for end in ends) and _passes_at_once(ends[1], connection):
             links.add_edge(sender, receiver, path=connection.path)
     return links
 

@@ -6,7 +6,7 @@ import networkx as nx
 
 from neuromech.components.base import Component, Neuron
 from neuromech.errors import Problem
-from neuromech.graph.model import Element, ModelGraph
+from neuromech.graph.model import Element, ModelGraph, NodeFamily
 from neuromech.graph.signals import matching, signals
 
 
@@ -14,10 +14,10 @@ def unreachable_motoneuron(graph: ModelGraph) -> Iterator[Problem]:
     """Synapses lead to each motoneuron from a drive, a sensor, or a neuron that is active by itself."""
     links = nx.DiGraph()
     links.add_nodes_from(element.name for element in graph.elements())
-    links.add_edges_from((sender, receiver) for sender, receiver, _ in graph.connections("synapse"))
+    links.add_edges_from((sender, receiver) for sender, receiver, _ in graph.connections("synapse", "projection"))
     sources = [element.name for element in graph.elements() if _is_source(element)]
     reached = set(sources).union(*(nx.descendants(links, source) for source in sources))
-    for element in _motoneurons(graph):
+    for element in _motoneurons(graph, "neuron", "population"):
         if element.name not in reached:
             message = "no path of synapses leads to this motoneuron from a drive, a sensor or a rhythm generator"
             hint = "add the synapse that excites it"
@@ -29,7 +29,7 @@ def idle_motoneuron(graph: ModelGraph) -> Iterator[Problem]:
     if not any(graph.elements("muscle")):
         return
     pulling = {sender for sender, receiver, _ in graph.connections("wire") if _family(graph, receiver) == "muscle"}
-    for element in _motoneurons(graph):
+    for element in _motoneurons(graph, "neuron"):
         if element.name not in pulling:
             hint = "name it as 'motoneuron' of a muscle, or give it another layer"
             yield graph.document.problem("idle-motoneuron", element.path, "activates no muscle", hint=hint)
@@ -37,7 +37,7 @@ def idle_motoneuron(graph: ModelGraph) -> Iterator[Problem]:
 
 def sensor_without_target(graph: ModelGraph) -> Iterator[Problem]:
     """A sensor has a synapse, another component reads it, or it is recorded."""
-    heard = {sender for sender, _, _ in graph.connections("synapse", "wire")}
+    heard = {sender for sender, _, _ in graph.connections("synapse", "projection", "wire")}
     every = list(signals(graph))
     patterns = [pattern for group in graph.document.experiment.record.values() for pattern in group.signals]
     heard |= {name.rpartition(".")[0] for pattern in patterns for name in matching(pattern, every)}
@@ -47,8 +47,8 @@ def sensor_without_target(graph: ModelGraph) -> Iterator[Problem]:
             yield graph.document.problem("sensor-without-target", element.path, "nothing reads this sensor", hint=hint)
 
 
-def _motoneurons(graph: ModelGraph) -> Iterator[Element]:
-    for element in graph.elements("neuron"):
+def _motoneurons(graph: ModelGraph, *families: NodeFamily) -> Iterator[Element]:
+    for element in graph.elements(*families):
         if isinstance(element.spec, Neuron) and element.spec.layer == "motoneuron":
             yield element
 

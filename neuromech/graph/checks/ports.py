@@ -37,7 +37,7 @@ def unit_clash(graph: ModelGraph) -> Iterator[Problem]:
 
 
 def _signal_connections(graph: ModelGraph) -> Iterator[Ends]:
-    for sender, receiver, connection in graph.connections("synapse", "wire"):
+    for sender, receiver, connection in graph.connections("synapse", "projection", "wire"):
         yield graph.element(sender), graph.element(receiver), connection
 
 

@@ -6,17 +6,17 @@ from pydantic_core import PydanticCustomError
 
 from neuromech.errors import Problem, did_you_mean
 from neuromech.graph.model import ModelGraph
-from neuromech.graph.signals import matching, signals, states
+from neuromech.graph.signals import matching, signals, sizes, split, states
 from neuromech.spec.model import Measure, Uniform
 from neuromech.units import Unit
 
 
 def record_matches_nothing(graph: ModelGraph) -> Iterator[Problem]:
     """Each pattern of a record group matches a signal."""
-    every = list(signals(graph))
+    every, populations = list(signals(graph)), sizes(graph)
     for name, group in graph.document.experiment.record.items():
         for index, pattern in enumerate(group.signals):
-            if not matching(pattern, every):
+            if not matching(pattern, every, populations):
                 path = f"record.{name}.signals.{index}"
                 hint = _closest(pattern, every)
                 yield graph.document.problem("no-such-signal", path, "matches no signal", f"'{pattern}'", hint)
@@ -24,13 +24,13 @@ def record_matches_nothing(graph: ModelGraph) -> Iterator[Problem]:
 
 def claim_on_unrecorded(graph: ModelGraph) -> Iterator[Problem]:
     """What a claim measures is recorded."""
-    every = list(signals(graph))
+    every, populations = list(signals(graph)), sizes(graph)
     groups = graph.document.experiment.record.values()
-    recorded = [name for group in groups for pattern in group.signals for name in matching(pattern, every)]
+    recorded = [name for group in groups for pattern in group.signals for name in matching(pattern, every, populations)]
     for name, claim in graph.document.experiment.claims.items():
         for path, pattern in _patterns(claim.measure):
             if not matching(pattern, recorded):
-                hint = "record it" if matching(pattern, every) else _closest(pattern, recorded)
+                hint = "record it" if matching(pattern, every, populations) else _closest(pattern, recorded)
                 path = f"claims.{name}.measure.{path}"
                 message = "matches no recorded signal"
                 yield graph.document.problem("not-recorded", path, message, f"'{pattern}'", hint)
@@ -40,7 +40,7 @@ def initial_matches_nothing(graph: ModelGraph) -> Iterator[Problem]:
     """Each pattern of `protocol.initial` matches a state."""
     every = list(states(graph))
     for pattern in graph.document.experiment.protocol.initial:
-        if not matching(pattern, every):
+        if not matching(pattern, every, sizes(graph)):
             path = f"protocol.initial.{pattern}"
             hint = _closest(pattern, every)
             yield graph.document.problem("no-such-state", path, "matches no state", f"'{pattern}'", hint)
@@ -54,8 +54,14 @@ def initial_of_wrong_unit(graph: ModelGraph) -> Iterator[Problem]:
         values: tuple[object, ...] = (value,)
         if isinstance(value, Uniform):
             path, values = f"{path}.uniform", value.uniform
-        for unit in dict.fromkeys(every[name] for name in matching(pattern, every)):
+        for unit in dict.fromkeys(_units(pattern, every, sizes(graph))):
             yield from _unit_problems(graph, path, values, unit)
+
+
+def _units(pattern: str, every: dict[str, str], populations: dict[str, int]) -> Iterator[str]:
+    for name in matching(pattern, every, populations):
+        element, _, quantity = split(name)
+        yield every[f"{element}.{quantity}"]
 
 
 def _unit_problems(graph: ModelGraph, path: str, values: tuple[object, ...], unit: str) -> Iterator[Problem]:
