@@ -16,10 +16,13 @@ def muscle_torque(force: Floats, arms: Floats, first: Integers, joint: Integers,
 
 @equation
 def muscle_damping(slope: Floats, arms: Floats, first: Integers, joint: Integers, matrix: Floats) -> None:
-    """Add to `matrix` (n, n) the joint damping of the muscles, Rᵀ diag(slope) R; slope in N s/m, arms in m."""
+    """Add to the lower triangle of `matrix` (n, n) the joint damping of the muscles, Rᵀ diag(slope) R.
+
+    `slope` (m,) in N s/m, `arms` in m; `first` and `joint` as for `muscle_torque`, joints of a muscle ascending.
+    """
     for m in range(slope.shape[0]):
         for k in range(first[m], first[m + 1]):
-            for h in range(first[m], first[m + 1]):
+            for h in range(first[m], k + 1):
                 matrix[joint[k], joint[h]] += arms[k] * slope[m] * arms[h]
 
 
@@ -28,6 +31,7 @@ def observer_implicit(
     dt: float,
     mass: Floats,
     damping: Floats,
+    first: Integers,
     torque: Floats,
     velocity: Floats,
     last_velocity: Floats,
@@ -36,19 +40,22 @@ def observer_implicit(
 ) -> None:
     """Replace `torque` (n,) by τ − dt B a, with (M + dt B) a = τ − τ_last + M (v − v_last)/dt.
 
-    M (n, n) is `mass`, B (n, n) `damping`; both are overwritten. M a_last − τ_last is what acted on the joints from
-    outside during the last step (contact, gravity, coupling), so that a static load causes no bias.
+    M (n, n) is `mass`, B (n, n) `damping`, of which the lower triangles from column `first` (n,) on are read; M and
+    `last_velocity` are overwritten. M a_last − τ_last is what acted on the joints from outside during the last step
+    (contact, gravity, coupling), so that a static load causes no bias.
     """
     n = torque.shape[0]
     for i in range(n):
-        total = torque[i] - last_torque[i]
-        for j in range(n):
-            total += mass[i, j] * (velocity[j] - last_velocity[j]) / dt
-        acceleration[i] = total
-    for i in range(n):
-        for j in range(n):
+        last_velocity[i] = (velocity[i] - last_velocity[i]) / dt
+        acceleration[i] = torque[i] - last_torque[i] + mass[i, i] * last_velocity[i]
+        mass[i, i] += dt * damping[i, i]
+        for j in range(first[i], i):
+            acceleration[i] += mass[i, j] * last_velocity[j]
+            acceleration[j] += mass[i, j] * last_velocity[i]
             mass[i, j] += dt * damping[i, j]
-    solve_symmetric(mass, acceleration)
+    solve_symmetric(mass, first, acceleration)
     for i in range(n):
-        for j in range(n):
+        torque[i] -= dt * damping[i, i] * acceleration[i]
+        for j in range(first[i], i):
             torque[i] -= dt * damping[i, j] * acceleration[j]
+            torque[j] -= dt * damping[i, j] * acceleration[i]

@@ -41,8 +41,16 @@ def generate(shape: Shape) -> str:
 def _fill(text: str, shape: Shape) -> str:
     for name in shape.header():
         text = text.replace(f"<{name}>", f"I[{_constant(name)}]")
-    text = text.replace("<delays>", str(shape.has_delays)).replace("<shared weights>", str(shape.has_shared_weights))
-    return text.replace("<threads>", str(shape.has_threads))
+    relays = any(is_scheduled(kind) and not evaluated_with_body(kind.cls) for kind in shape.kinds)
+    flags = {
+        "delays": shape.has_delays,
+        "shared weights": shape.has_shared_weights,
+        "threads": shape.has_threads,
+        "relays": relays,
+    }
+    for name, flag in flags.items():
+        text = text.replace(f"<{name}>", str(flag))
+    return text
 
 
 def _constant(name: str) -> str:

@@ -126,7 +126,7 @@ def _lower_mechanics(
     structure(tree, integers)
     work.add("last_velocity", n)
     work.add("last_torque", n)
-    work.add("work", 2 * n * n + n + 2 * m)
+    work.add("work", n + 2 * m)
     return paths(elements, tree, graph, layout, integers, floats, work)
 
 
@@ -138,9 +138,12 @@ def _record_sections(graph: ModelGraph, layout: Layout, integers: Buffer, tick: 
     starts = [0, *np.cumsum([len(some) for some in names], dtype=int).tolist()]
     integers.add("group_start", starts)
     integers.add("group_row", [0] * len(names))
-    integers.add("slot", [layout.slot(name) for some in names for name in some])
-    integers.add("mean_first", [slots.start for slots in layout.means()])
-    integers.add("mean_count", [len(slots) for slots in layout.means()])
+    slots = [layout.slot(name) for some in names for name in some]
+    integers.add("slot", slots)
+    outputs = layout.state_count + layout.signal_count
+    integers.header["inputs_recorded"] = int(any(slot >= outputs for slot in slots))
+    integers.add("mean_first", [some.start for some in layout.means()])
+    integers.add("mean_count", [len(some) for some in layout.means()])
 
 
 def recorded(patterns: Iterable[str], graph: ModelGraph) -> list[str]:

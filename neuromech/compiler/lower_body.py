@@ -7,7 +7,8 @@ import numpy as np
 from neuromech.compiler.buffers import Buffer, Reserve
 from neuromech.compiler.layout import Layout
 from neuromech.compiler.lower_components import follow
-from neuromech.compiler.tree import SLIDE, Tree
+from neuromech.compiler.numerics import Integers
+from neuromech.compiler.tree import FIXED_ROOT, SLIDE, Tree
 from neuromech.components.muscles import ConstantMomentArms, StraightLines
 from neuromech.graph.model import BodyModel, Element, ModelGraph
 from neuromech.units import Quantity
@@ -101,7 +102,22 @@ def paths(
                 follow(layout, x, start, f"{element.path}.path.points.{i}.position.{k}")
                 start += 1
     work.add("arms", sum(len(joints) for joints in crossed))
+    integers.add("coupled", _first_coupled(tree, crossed))
     return max((len(some) for some in points), default=0)
+
+
+def _first_coupled(tree: Tree, crossed: list[list[str]]) -> list[int]:
+    """Return for each joint the first joint whose acceleration or damping it can feel, itself at the latest.
+
+    Under a fixed root these are the joints of its own limb; a root that moves, and a muscle, couple what they join.
+    """
+    n = len(tree.joints)
+    moved = _moved(tree)
+    coupled = (moved @ moved.T > 0) if tree.root == FIXED_ROOT else np.ones((n, n), dtype=bool)
+    for joints in crossed:
+        places = [tree.joints.index(joint) for joint in joints]
+        coupled[np.ix_(places, places)] = True
+    return [min(j, int(np.argmax(coupled[j]))) for j in range(n)]
 
 
 def _path(element: Element) -> ConstantMomentArms | StraightLines:
@@ -146,14 +162,20 @@ def _constant_paths(
 
 def structure(tree: Tree, integers: Buffer) -> None:
     """Write which joint moves which segment, the child of each joint, and which joints slide."""
-    n, segments = len(tree.joints), len(tree.segments)
-    moved = np.zeros((n, segments), dtype=int)
+    n = len(tree.joints)
     child, slide = np.zeros(n, dtype=int), np.zeros(n, dtype=int)
-    for row in range(1, segments):
-        moved[:, row] = moved[:, tree.parent[row]]
-        moved[tree.joint[row], row] = 1
+    for row in range(1, len(tree.segments)):
         child[tree.joint[row]] = row
         slide[tree.joint[row]] = int(tree.kind[row] == SLIDE)
-    integers.add("moved", moved.ravel().tolist())
+    integers.add("moved", _moved(tree).ravel().tolist())
     integers.add("child", child.tolist())
     integers.add("slide", slide.tolist())
+
+
+def _moved(tree: Tree) -> Integers:
+    """Return (joints, segments): 1 where a joint moves a segment."""
+    moved = np.zeros((len(tree.joints), len(tree.segments)), dtype=np.int64)
+    for row in range(1, len(tree.segments)):
+        moved[:, row] = moved[:, tree.parent[row]]
+        moved[tree.joint[row], row] = 1
+    return moved

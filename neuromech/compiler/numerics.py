@@ -104,24 +104,28 @@ def interpolate(t: float, start: int, count: int, times: int, values: int, p: Fl
 
 
 @equation
-def solve_symmetric(matrix: Floats, vector: Floats) -> None:
-    """Solve A x = b in place for a symmetric positive definite A (n, n), as L D Lᵀ; b becomes x, A its factors."""
+def solve_symmetric(matrix: Floats, first: Integers, vector: Floats) -> None:
+    """Solve A x = b in place for a symmetric positive definite A (n, n) given by its lower triangle; b becomes x.
+
+    `first` (n,) is the column of the first number of each row that may differ from zero: the factors L D Lᵀ have zeros
+    in the same places, so nothing is done there (Jennings 1966, doi:10.1093/comjnl/9.3.281). A becomes its factors.
+    """
     n = vector.shape[0]
-    for j in range(n):
-        for k in range(j):
-            factor = matrix[j, k] * matrix[k, k]
-            matrix[k, j] = factor
-            matrix[j, j] -= factor * matrix[j, k]
-        inverse = 1.0 / matrix[j, j]
-        for i in range(j + 1, n):
-            total = matrix[i, j]
-            for k in range(j):
-                total -= matrix[i, k] * matrix[k, j]
-            matrix[i, j] = total * inverse
     for i in range(n):
-        for k in range(i):
-            vector[i] -= matrix[i, k] * vector[k]
+        for j in range(first[i], i):
+            total = matrix[i, j]
+            for k in range(max(first[i], first[j]), j):
+                total -= matrix[i, k] * matrix[j, k]
+            matrix[i, j] = total
+        pivot = matrix[i, i]
+        for j in range(first[i], i):
+            factor = matrix[i, j] * matrix[j, j]
+            pivot -= factor * matrix[i, j]
+            matrix[i, j] = factor
+            vector[i] -= factor * vector[j]
+        matrix[i, i] = 1.0 / pivot
+    for i in range(n):
+        vector[i] *= matrix[i, i]
     for i in range(n - 1, -1, -1):
-        vector[i] /= matrix[i, i]
-        for k in range(i + 1, n):
-            vector[i] -= matrix[k, i] * vector[k]
+        for j in range(first[i], i):
+            vector[j] -= matrix[i, j] * vector[i]

@@ -22,7 +22,7 @@ COMMON = (
     "track", "path_first", "path_joint", "path_kind", "path_length", "path_reference", "path_arm",
     "path_point", "path_point_first", "path_segment", "moved", "length_signal", "velocity_signal",
     "force_slot", "stiffness_slot", "damping_slot", "damping", "joint_stiffness", "rest_angle", "arms", "work",
-    "last_velocity", "last_torque", "explicit", "child", "slide", "root",
+    "last_velocity", "last_torque", "explicit", "child", "slide", "root", "coupled", "inputs_recorded",
 )  # fmt: skip
 
 

@@ -236,7 +236,7 @@ BODY = '''
 def kinematics(s, F, I, T, D):
     """Place the segments in the world; signals of the contacts' centres and of the segments that are looked at."""
     topology, geometry, contact_segment, contact_position = T
-    rotation, position, linear, angular, centers, axis, points, work = D
+    rotation, position, linear, angular, centers, axis, points, work, mass, damping = D
     n, body = <joints>, <body>
     root = body + 2 * n
     forward_kinematics(topology, geometry, s[body : body + n], s[root : root + 7], rotation, position)
@@ -247,7 +247,8 @@ def kinematics(s, F, I, T, D):
     for r in range(1, <segments>):
         for c in range(3):
             axis[topology[r, 1], c] = world_axis(geometry, rotation, r, c)
-    linear[0] = s[root + 7 : root + 10]
+    for c in range(3):
+        linear[0, c] = s[root + 7 + c]
     if <tracked> > 1:
         velocity = s[body + n : body + 2 * n]
         segment_velocities(topology, geometry, velocity, s[root + 7 : root + 13], rotation, position, linear, angular)
@@ -265,21 +266,21 @@ def mechanics(x, s, u, p, F, I, T, D):
     """Muscle lengths, velocities and moment arms, then forces and sensors."""
     kinematics(s, F, I, T, D)
     n, body, arms = <joints>, <body>, <arms>
-    angle = s[body : body + n]
-    velocity = s[body + n : body + 2 * n]
     for k in range(<muscles>):
         first, last = I[<path_first> + k], I[<path_first> + k + 1]
-        joint = I[<path_joint> + first : <path_joint> + last]
-        arm = F[arms + first : arms + last]
         if I[<path_kind> + k] == 0:
-            arm[:] = p[<path_arm> + first : <path_arm> + last]
-            reference = p[<path_reference> + first : <path_reference> + last]
-            s[<length_signal> + k] = constant_path(p[<path_length> + k], reference, arm, joint, angle)
+            length = p[<path_length> + k]
+            for h in range(first, last):
+                arm = p[<path_arm> + h]
+                F[arms + h] = arm
+                length -= arm * (s[body + I[<path_joint> + h]] - p[<path_reference> + h])
+            s[<length_signal> + k] = length
         else:
-            s[<length_signal> + k] = lines_length(k, p, I, T, D, joint, arm)
+            joint = I[<path_joint> + first : <path_joint> + last]
+            s[<length_signal> + k] = lines_length(k, p, I, T, D, joint, F[arms + first : arms + last])
         speed = 0.0
-        for h in range(last - first):
-            speed -= arm[h] * velocity[joint[h]]
+        for h in range(first, last):
+            speed -= F[arms + h] * s[body + n + I[<path_joint> + h]]
         s[<velocity_signal> + k] = speed
     evaluate_mechanics(x, s, u, p, F, I)
 
@@ -288,7 +289,7 @@ def mechanics(x, s, u, p, F, I, T, D):
 def lines_length(k, p, I, T, D, joint, arm):
     """Place the points of muscle k in the world, measure the lines between them, fill the moment arms."""
     topology, geometry, contact_segment, contact_position = T
-    rotation, position, linear, angular, centers, axis, points, work = D
+    rotation, position, linear, angular, centers, axis, points, work, mass, damping = D
     n, segments = <joints>, <segments>
     first, last = I[<path_point_first> + k], I[<path_point_first> + k + 1]
     carrier = I[<path_segment> + first : <path_segment> + last]
@@ -308,26 +309,24 @@ def lines_length(k, p, I, T, D, joint, arm):
 @equation
 def torques(dt, x, s, u, p, F, I, T, D):
     """Torques of muscles, joint dampers and joint springs, coupled with the body; they go to the torque signals."""
-    n, m, body = <joints>, <muscles>, <body>
-    angle = s[body : body + n]
+    n, m, body, w = <joints>, <muscles>, <body>, <work>
+    mass, damping = D[8], D[9]
     velocity = s[body + n : body + 2 * n]
     torque = s[<torque> : <torque> + n]
-    w = <work>
-    mass = F[w : w + n * n].reshape(n, n)
-    damping = F[w + n * n : w + 2 * n * n].reshape(n, n)
-    acceleration = F[w + 2 * n * n : w + 2 * n * n + n]
-    force = F[w + 2 * n * n + n : w + 2 * n * n + n + m]
-    slope = F[w + 2 * n * n + n + m : w + 2 * n * n + n + 2 * m]
+    acceleration = F[w : w + n]
+    force = F[w + n : w + n + m]
+    slope = F[w + n + m : w + n + 2 * m]
     first = I[<path_first> : <path_first> + m + 1]
     joint = I[<path_joint> : <path_joint> + first[m]]
     arms = F[<arms> : <arms> + first[m]]
     for k in range(m):
         force[k] = s[I[<force_slot> + k]]
         slope[k] = max(0.0, s[I[<damping_slot> + k]] + dt * s[I[<stiffness_slot> + k]])
-    damping[:] = 0.0
     for j in range(n):
         d, k = p[<damping> + j], p[<joint_stiffness> + j]
-        torque[j] = -k * (angle[j] - p[<rest_angle> + j]) - d * velocity[j]
+        torque[j] = -k * (s[body + j] - p[<rest_angle> + j]) - d * velocity[j]
+        for i in range(j):
+            damping[j, i] = 0.0
         damping[j, j] = d + dt * k
     muscle_torque(force, arms, first, joint, torque)
     if <explicit>:
@@ -337,11 +336,14 @@ def torques(dt, x, s, u, p, F, I, T, D):
     last_velocity = F[<last_velocity> : <last_velocity> + n]
     last_torque = F[<last_torque> : <last_torque> + n]
     if n > 0 and np.isnan(last_torque[0]):
-        last_torque[:] = torque
-        last_velocity[:] = velocity
-    observer_implicit(dt, mass, damping, torque, velocity, last_velocity, last_torque, acceleration)
-    last_torque[:] = torque
-    last_velocity[:] = velocity
+        for j in range(n):
+            last_torque[j] = torque[j]
+            last_velocity[j] = velocity[j]
+    coupled = I[<coupled> : <coupled> + n]
+    observer_implicit(dt, mass, damping, coupled, torque, velocity, last_velocity, last_torque, acceleration)
+    for j in range(n):
+        last_torque[j] = torque[j]
+        last_velocity[j] = velocity[j]
 
 
 @equation
@@ -351,7 +353,7 @@ def present(step, x, s, u, p, F, I, T, D):
         delayed_inputs(step, 0.0, p, F, I)
     network_outputs(x, s, u, p, F, I)
     mechanics(x, s, u, p, F, I, T, D)
-    if <network_ordered>:
+    if <relays>:
         evaluate_network(x, s, u, p, F, I)
         evaluate_mechanics(x, s, u, p, F, I)
 
@@ -370,7 +372,8 @@ def tick(number, dt, x, s, u, p, F, I, R, T, D):
         present(number * <substeps>, x, s, u, p, F, I, T, D)
         if k < passes - 1:
             fill_history(s, F, I)
-    network_inputs(s, u, p, F, I)
+    if <inputs_recorded>:
+        network_inputs(s, u, p, F, I)
     torques(dt, x, s, u, p, F, I, T, D)
     record(number, x, s, u, I, R)
     return first_bad(s[<torque> : <torque> + <joints>])

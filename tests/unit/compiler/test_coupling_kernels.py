@@ -20,8 +20,18 @@ def spd(seed, n=5):
 def test_symmetric_systems_are_solved(seed):
     matrix, vector = spd(seed), np.arange(5.0)
     solution = vector.copy()
-    solve_symmetric(matrix.copy(), solution)
+    solve_symmetric(matrix.copy(), np.zeros(5, dtype=np.int64), solution)
     assert solution == pytest.approx(np.linalg.solve(matrix, vector), rel=1e-9)
+
+
+def test_only_what_lies_within_the_envelope_is_read():
+    blocks = np.zeros((6, 6))
+    blocks[:3, :3], blocks[3:, 3:] = spd(1, 3), spd(2, 3)
+    first, vector = np.array([0, 0, 0, 3, 3, 3]), np.arange(6.0)
+    given = np.where(blocks == 0.0, np.nan, np.tril(blocks))
+    solution = vector.copy()
+    solve_symmetric(given, first, solution)
+    assert solution == pytest.approx(np.linalg.solve(blocks, vector), rel=1e-9)
 
 
 def test_torque_and_damping_are_products_with_the_moment_arms():
@@ -30,12 +40,15 @@ def test_torque_and_damping_are_products_with_the_moment_arms():
     muscle_torque(force, ARMS, FIRST, JOINT, torque)
     muscle_damping(slope, ARMS, FIRST, JOINT, matrix)
     assert torque == pytest.approx(1.0 + ROWS.T @ force)
-    assert matrix == pytest.approx(np.eye(3) + ROWS.T @ np.diag(slope) @ ROWS)
+    assert matrix == pytest.approx(np.tril(np.eye(3) + ROWS.T @ np.diag(slope) @ ROWS))
 
 
 def coupled(dt, mass, damping, torque, velocity, last_velocity, last_torque):
     applied, acceleration = torque.copy(), np.empty(len(torque))
-    observer_implicit(dt, mass.copy(), damping.copy(), applied, velocity, last_velocity, last_torque, acceleration)
+    whole = np.zeros(len(torque), dtype=np.int64)
+    observer_implicit(
+        dt, mass.copy(), damping.copy(), whole, applied, velocity, last_velocity.copy(), last_torque, acceleration
+    )
     return applied, acceleration
 
 
