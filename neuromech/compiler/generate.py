@@ -11,7 +11,7 @@ from neuromech.compiler.shape import (
     has_feedthrough,
     is_scheduled,
 )
-from neuromech.compiler.template import BODY, GATHER, NETWORK, NO_BODY, ROWS, STEPPERS
+from neuromech.compiler.template import BODY, GATHER, NETWORK, NO_BODY, ROWS, STEPPERS, TEAM_GATHER
 
 
 def generate(shape: Shape) -> str:
@@ -25,7 +25,7 @@ def generate(shape: Shape) -> str:
         _positions(shape),
         *(_equations(kind) for kind in shape.kinds),
         ROWS,
-        GATHER,
+        TEAM_GATHER if shape.has_threads else GATHER,
         _outputs(shape),
         _dispatch("evaluate_network", shape, with_body=False),
         _dispatch("evaluate_mechanics", shape, with_body=True),
@@ -45,7 +45,6 @@ def _fill(text: str, shape: Shape) -> str:
     flags = {
         "delays": shape.has_delays,
         "shared weights": shape.has_shared_weights,
-        "threads": shape.has_threads,
         "relays": relays,
     }
     for name, flag in flags.items():
@@ -76,6 +75,8 @@ def _imports(shape: Shape) -> str:
         "from neuromech.compiler.numerics import compiled, elementwise, equation, interpolate, relaxed",
         "from neuromech.compiler.numerics import sum_at, weighted_sum_at",
         "from neuromech.compiler.paths import constant_path, straight_path",
+        "from neuromech.compiler.team import DONE, FIRST, HELPERS, LAST, NEXT, ORDER, PART, STOP",
+        "from neuromech.compiler.team import add, load, rest, store",
         *sorted({f"from {kind.cls.__module__} import {kind.cls.__qualname__}" for kind in shape.kinds}),
     ]
     return "\n".join(lines)

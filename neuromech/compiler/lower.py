@@ -23,6 +23,7 @@ from neuromech.compiler.lower_connections import connections, evaluation_order
 from neuromech.compiler.numerics import Floats
 from neuromech.compiler.program import Program
 from neuromech.compiler.shape import COMMON, FixedStep, Shape
+from neuromech.compiler.team import SIZE as TEAM
 from neuromech.compiler.timeline import timeline
 from neuromech.compiler.tree import Tree, lower_tree
 from neuromech.errors import DocumentError
@@ -31,7 +32,7 @@ from neuromech.graph.signals import matching, signals, sizes, split
 
 _STAGE_ARRAYS = 5
 # Synapses from which on a second thread makes a step shorter (docs/performance.md).
-_BREAK_EVEN = 200_000
+_BREAK_EVEN = 100_000
 
 
 def lower(graph: ModelGraph) -> Program:
@@ -62,6 +63,7 @@ def lower(graph: ModelGraph) -> Program:
     header["explicit"] = int(solver.coupling == "explicit")
     substeps = header["substeps"] = round(float(solver.body_step) / float(solver.step)) if tree else 1
     _record_sections(graph, layout, integers, float(solver.body_step if tree else solver.step))
+    integers.add("team", np.zeros(TEAM, dtype=np.int64))
     threads = _threads(solver.threads, connected.synapses)
     shape = Shape(
         tuple(part.shape for part in parts),

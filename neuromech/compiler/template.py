@@ -26,6 +26,61 @@ def gather(s, u, p, F, I, first, rows, stride, ports):
         rows_between(s, u, p, F, I, start, start + rows)
 '''
 
+TEAM_GATHER = '''
+@equation
+def take_rows(s, u, p, F, I):
+    """Sum rows of the present order until none are left."""
+    team = I.ctypes.data + 8 * <team>
+    first, last = I[<team> + FIRST], I[<team> + LAST]
+    while True:
+        start = first + PART * add(team + 8 * NEXT, 1)
+        if start >= last:
+            return
+        rows_between(s, u, p, F, I, start, min(start + PART, last))
+
+
+@compiled
+def help(s, u, p, F, I):
+    """Help the thread that runs the step until it stops the team."""
+    team = I.ctypes.data + 8 * <team>
+    seen = 0
+    while True:
+        order = load(team + 8 * ORDER)
+        if order == STOP:
+            return
+        if order == seen:
+            rest()
+            continue
+        seen = order
+        take_rows(s, u, p, F, I)
+        add(team + 8 * DONE, 1)
+
+
+@equation
+def gather(s, u, p, F, I, first, rows, stride, ports):
+    """Sum the weighted signals that reach `ports` blocks of `rows` input ports each, many of them with the team."""
+    helpers = I[<team> + HELPERS]
+    for port in range(ports):
+        start = first + port * stride
+        if helpers == 0 or rows <= PART:
+            rows_between(s, u, p, F, I, start, start + rows)
+            continue
+        team = I.ctypes.data + 8 * <team>
+        I[<team> + FIRST], I[<team> + LAST] = start, start + rows
+        store(team + 8 * NEXT, 0)
+        store(team + 8 * DONE, 0)
+        add(team + 8 * ORDER, 1)
+        take_rows(s, u, p, F, I)
+        while load(team + 8 * DONE) < helpers:
+            rest()
+
+
+@compiled
+def stop(I):
+    """Send the team away."""
+    store(I.ctypes.data + 8 * <team> + 8 * ORDER, STOP)
+'''
+
 NETWORK = '''
 @equation
 def delayed_inputs(step, fraction, p, F, I):

@@ -16,6 +16,7 @@ from neuromech.errors import RunError
 from neuromech.simulate.adaptive import breakpoints, integrate, is_adaptive, ticks_from
 from neuromech.simulate.compiled_loop import BAD_STATE, BAD_TORQUE, FELL, compiled_loop
 from neuromech.simulate.fall import FallRule
+from neuromech.simulate.helpers import helpers
 from neuromech.simulate.initial import initial_states
 from neuromech.simulate.recorder import Recorder
 from neuromech.simulate.recording import Outcome, Recording
@@ -111,7 +112,8 @@ def _in_chunks(run: _Run, chunk: Callable[[int], Outcome | None]) -> Outcome | N
     length = 1
     while run.done < run.ticks:
         started = time.perf_counter()
-        ended = chunk(min(run.done + length, run.ticks))
+        with helpers(run.program, run.memory):
+            ended = chunk(min(run.done + length, run.ticks))
         if ended is not None:
             return ended
         run.report()
