@@ -11,7 +11,7 @@ from neuromech.compiler.shape import (
     has_feedthrough,
     is_scheduled,
 )
-from neuromech.compiler.template import BODY, GATHER, NETWORK, NO_BODY, ROWS, STEPPERS, TEAM_GATHER
+from neuromech.compiler.template import BODY, GATHER, GATHER_SLOTS, NETWORK, NO_BODY, ROWS, STEPPERS, TEAM_GATHER
 
 
 def generate(shape: Shape) -> str:
@@ -26,6 +26,7 @@ def generate(shape: Shape) -> str:
         *(_equations(kind) for kind in shape.kinds),
         ROWS,
         TEAM_GATHER if shape.has_threads else GATHER,
+        GATHER_SLOTS if shape.has_short_rows else "",
         _outputs(shape),
         _dispatch("evaluate_network", shape, with_body=False),
         _dispatch("evaluate_mechanics", shape, with_body=True),
@@ -164,7 +165,7 @@ def _dispatch(function: str, shape: Shape, *, with_body: bool) -> str:
     ]
     for kind in phase if with_body else ():
         if kind.early and kind.cls.output:
-            lines.append(f"    {_gather_all(kind)}")
+            lines.append(f"    {_gather_all(kind, shape)}")
             lines += _loop(kind, kind.cls.output, "output")
     if not kinds:
         return "\n".join([*lines, "    return"])
@@ -194,12 +195,14 @@ def _inputs(shape: Shape) -> str:
     ]
     for kind in shape.kinds:
         if kind.cls.flow and kind.cls.inputs:
-            lines.append(f"    {_gather_all(kind)}")
+            lines.append(f"    {_gather_all(kind, shape)}")
     return "\n".join([*lines, "    return"] if len(lines) == 3 else lines)
 
 
-def _gather_all(kind: KindShape) -> str:
+def _gather_all(kind: KindShape, shape: Shape) -> str:
     rows = f"{len(kind.cls.inputs)} * <{kind.name}.count>"
+    if shape.has_short_rows:
+        return f"gather_slots(s, u, p, F, I, <{kind.name}.inputs>, {rows}, <{kind.name}.table>)"
     return f"gather(s, u, p, F, I, <{kind.name}.inputs>, {rows}, 0, 1)"
 
 

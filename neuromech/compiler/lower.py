@@ -54,7 +54,7 @@ def lower(graph: ModelGraph) -> Program:
         muscle_signals(elements, layout, header)
         force_slots(elements, layout, integers)
     parameters(parts, floats, layout)
-    connected = connections(graph, layout, float(solver.step), integers, floats, work)
+    connected = connections(graph, parts, layout, float(solver.step), integers, floats, work)
     evaluation_order(graph, parts, integers)
     points = _lower_mechanics(graph, graph.body, tree, layout, integers, floats, work)
     timeline(graph.document, layout, integers, floats)
@@ -71,6 +71,7 @@ def lower(graph: ModelGraph) -> Program:
         has_body=tree is not None,
         has_delays=connected.has_delays,
         has_shared_weights=connected.has_shared_weights,
+        has_short_rows=connected.has_short_rows and threads == 1,
         has_threads=threads > 1,
     )
     source = generate(shape)

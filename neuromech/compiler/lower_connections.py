@@ -13,6 +13,7 @@ from neuromech.compiler.layout import Layout
 from neuromech.compiler.lower_components import Block, follow
 from neuromech.compiler.numerics import Floats, Integers
 from neuromech.compiler.shape import argument_names, evaluated_with_body, is_scheduled
+from neuromech.compiler.slots import MOST_ENTRIES, slotted
 from neuromech.components.base import Component
 from neuromech.graph.model import Connection, ModelGraph
 
@@ -23,11 +24,18 @@ class Connected:
 
     has_delays: bool
     has_shared_weights: bool
+    has_short_rows: bool
     synapses: int
 
 
 def connections(
-    graph: ModelGraph, layout: Layout, step: float, integers: Buffer, floats: Buffer, work: Reserve
+    graph: ModelGraph,
+    blocks: tuple[Block, ...],
+    layout: Layout,
+    step: float,
+    integers: Buffer,
+    floats: Buffer,
+    work: Reserve,
 ) -> Connected:
     """Write all rows, weights and delay lines.
 
@@ -41,7 +49,44 @@ def connections(
     first_shared = _rows(apart, layout, integers, floats)
     first_delayed = _segments(together, first_shared, layout, integers, floats)
     _delay_lines(delayed, first_delayed, layout, step, integers, floats, work)
-    return Connected(bool(delayed), bool(together), sum(len(one.sources) for one in found))
+    short = not together and _are_short(apart)
+    _short_rows(apart if short else [], blocks, layout, integers, floats, work)
+    return Connected(bool(delayed), bool(together), short, sum(len(one.sources) for one in found))
+
+
+def _are_short(apart: list[Bundle]) -> bool:
+    rows = joined([one.rows for one in apart], np.int64)
+    return len(rows) <= MOST_ENTRIES * len(np.unique(rows))
+
+
+def _short_rows(
+    apart: list[Bundle],
+    blocks: tuple[Block, ...],
+    layout: Layout,
+    integers: Buffer,
+    floats: Buffer,
+    work: Reserve,
+) -> None:
+    """Write rows slot by slot, weights of their own included."""
+    header = integers.header
+    first = [header[f"{block.shape.name}.inputs"] for block in blocks]
+    counts = [block.count * len(block.shape.cls.inputs) for block in blocks]
+    ranges = [range(start, start + count) for start, count in zip(first, counts, strict=True)]
+    found = slotted(joined([one.rows for one in apart], np.int64), ranges)
+    tables = integers.add("slot_tables", found.tables)
+    for block, start in zip(blocks, found.starts, strict=True):
+        header[f"{block.shape.name}.table"] = tables + start
+        integers.sections.add(f"{block.shape.name}.table")
+    integers.add("slot_order", found.order)
+    back = np.argsort(found.place)
+    integers.add("slot_source", joined([one.sources for one in apart], np.int64)[back])
+    weights = floats.add("slot_weights", joined([_weights(one) for one in apart], np.float64)[back])
+    position = 0
+    for one in apart:
+        if one.weights is None:
+            follow(layout, one.weight, weights + int(found.place[position]), one.path)
+        position += len(one.sources)
+    work.add("slot_sums", max(counts, default=0))
 
 
 def _rows(apart: list[Bundle], layout: Layout, integers: Buffer, floats: Buffer) -> int:

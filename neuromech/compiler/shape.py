@@ -23,6 +23,7 @@ COMMON = (
     "path_point", "path_point_first", "path_segment", "moved", "length_signal", "velocity_signal",
     "force_slot", "stiffness_slot", "damping_slot", "damping", "joint_stiffness", "rest_angle", "arms", "work",
     "last_velocity", "last_torque", "explicit", "child", "slide", "root", "coupled", "inputs_recorded",
+    "slot_tables", "slot_order", "slot_source", "slot_weights", "slot_sums",
 )  # fmt: skip
 
 
@@ -47,7 +48,7 @@ class KindShape:
 
     def header(self) -> tuple[str, ...]:
         """Return the names of this kind's offsets in the integer buffer."""
-        fixed = ("count", "states", "inputs", "outputs")
+        fixed = ("count", "states", "inputs", "outputs", "table")
         return tuple(f"{self.name}.{part}" for part in (*fixed, *parameter_names(self.cls)))
 
 
@@ -60,6 +61,7 @@ class Shape:
     has_body: bool
     has_delays: bool
     has_shared_weights: bool
+    has_short_rows: bool
     has_threads: bool
 
     def header(self) -> dict[str, int]:

@@ -81,6 +81,30 @@ def stop(I):
     store(I.ctypes.data + 8 * <team> + 8 * ORDER, STOP)
 '''
 
+GATHER_SLOTS = '''
+@equation
+def gather_slots(s, u, p, F, I, first, rows, table):
+    """Sum the weighted signals that reach `rows` input ports, the k-th of every port at a time; see `slots.py`."""
+    used, slots, entry, row = I[table], I[table + 1], I[table + 2], I[table + 3]
+    base = F[<base> + first : <base> + first + rows]
+    ports = u[first : first + rows]
+    for k in range(rows):
+        ports[k] = base[k]
+    total = F[<slot_sums> : <slot_sums> + used]
+    for k in range(used):
+        total[k] = 0.0
+    for slot in range(slots):
+        count = I[table + 4 + slot]
+        source = I[<slot_source> + entry : <slot_source> + entry + count]
+        weight = p[<slot_weights> + entry : <slot_weights> + entry + count]
+        for k in range(count):
+            total[k] += weight[k] * s[source[k]]
+        entry += count
+    order = I[<slot_order> + row : <slot_order> + row + used]
+    for k in range(used):
+        u[order[k]] += total[k]
+'''
+
 NETWORK = '''
 @equation
 def delayed_inputs(step, fraction, p, F, I):
