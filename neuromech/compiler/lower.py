@@ -32,7 +32,7 @@ from neuromech.graph.signals import matching, signals, sizes, split
 
 _STAGE_ARRAYS = 5
 # Synapses from which on a second thread makes a step shorter (docs/performance.md).
-_BREAK_EVEN = 100_000
+_BREAK_EVEN = 300_000
 
 
 def lower(graph: ModelGraph) -> Program:
@@ -192,4 +192,6 @@ def _initial(parts: Iterable[Block], layout: Layout) -> Floats:
 def _threads(wanted: int | None, synapses: int) -> int:
     if wanted is not None:
         return wanted
-    return (os.cpu_count() or 1) if synapses >= _BREAK_EVEN else 1
+    if synapses < _BREAK_EVEN:
+        return 1
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1

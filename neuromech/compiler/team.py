@@ -12,6 +12,8 @@ from llvmlite import ir
 from numba.core import types
 from numba.extending import intrinsic
 
+from neuromech.compiler.numerics import equation
+
 _WORD = ir.IntType(64)
 
 # Positions in the section `team` of the integer buffer, a cache line apart where several threads write.
@@ -20,8 +22,9 @@ STOP = -1
 PART = 64
 """Rows that a thread takes at a time."""
 
-rest = types.ExternalFunction("sched_yield" if os.name == "posix" else "SwitchToThread", types.int32())
-"""Let another thread of the machine run; from compiled code only."""
+_TURNS = 2048
+
+_rest = types.ExternalFunction("sched_yield" if os.name == "posix" else "SwitchToThread", types.int32())
 
 
 @intrinsic
@@ -54,3 +57,12 @@ def add(_typing: Any, _address: Any, _value: Any) -> Any:
         return builder.atomic_rmw("add", pointer, given[1], "seq_cst")
 
     return types.int64(types.int64, types.int64), generate
+
+
+@equation
+def rest_now_and_then(turns: int) -> int:
+    """Count the turns of a thread that waits; let another thread of the machine run after many of them."""
+    if turns < _TURNS:
+        return turns + 1
+    _rest()
+    return 0

@@ -43,13 +43,13 @@ def take_rows(s, u, p, F, I):
 def help(s, u, p, F, I):
     """Help the thread that runs the step until it stops the team."""
     team = I.ctypes.data + 8 * <team>
-    seen = 0
+    seen, turns = 0, 0
     while True:
         order = load(team + 8 * ORDER)
         if order == STOP:
             return
         if order == seen:
-            rest()
+            turns = rest_now_and_then(turns)
             continue
         seen = order
         take_rows(s, u, p, F, I)
@@ -71,8 +71,9 @@ def gather(s, u, p, F, I, first, rows, stride, ports):
         store(team + 8 * DONE, 0)
         add(team + 8 * ORDER, 1)
         take_rows(s, u, p, F, I)
+        turns = 0
         while load(team + 8 * DONE) < helpers:
-            rest()
+            turns = rest_now_and_then(turns)
 
 
 @compiled

@@ -110,15 +110,15 @@ def _network_fixed(run: _Run) -> Outcome | None:
 def _in_chunks(run: _Run, chunk: Callable[[int], Outcome | None]) -> Outcome | None:
     """Call `chunk` with the tick to reach, again and again, in pieces short enough to report and to be interrupted."""
     length = 1
-    while run.done < run.ticks:
-        started = time.perf_counter()
-        with helpers(run.program, run.memory):
+    with helpers(run.program, run.memory):
+        while run.done < run.ticks:
+            started = time.perf_counter()
             ended = chunk(min(run.done + length, run.ticks))
-        if ended is not None:
-            return ended
-        run.report()
-        spent = max(time.perf_counter() - started, 1e-6)
-        length = max(1, min(int(length * _SECONDS_BETWEEN_REPORTS / spent), length * 10))
+            if ended is not None:
+                return ended
+            run.report()
+            spent = max(time.perf_counter() - started, 1e-6)
+            length = max(1, min(int(length * _SECONDS_BETWEEN_REPORTS / spent), length * 10))
     return None
 
 

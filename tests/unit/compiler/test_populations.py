@@ -48,16 +48,16 @@ def of_pool(recording, quantity="potential", size=40):
 
 def dense(made, port, size=41):
     """Weights from every signal to an input port of the interneurons, read from the rows of the compiled step."""
-    header, I, p = made.header, made.integers, made.parameters
-    sources, shared = (I[header[name] :].view(np.int32) for name in ("row_source", "segment_source"))
+    header, offsets, p = made.header, made.integers, made.parameters
+    sources, shared = (offsets[header[name] :].view(np.int32) for name in ("row_source", "segment_source"))
     weights = np.zeros((size, made.layout.signal_count))
     for neuron in range(size):
         row = header["rybak_interneuron.inputs"] + port * size + neuron
-        for k in range(*I[header["row_start"] + row :][:2]):
+        for k in range(*offsets[header["row_start"] + row :][:2]):
             weights[neuron, sources[k]] += p[header["weights"] + k]
-        for g in range(*I[header["segment_start"] + row :][:2]):
-            first, last = I[header["segment_first"] + g], I[header["segment_last"] + g]
-            np.add.at(weights[neuron], shared[first:last], p[header["weights"] + I[header["segment_weight"] + g]])
+        for g in range(*offsets[header["segment_start"] + row :][:2]):
+            first, last = offsets[header["segment_first"] + g], offsets[header["segment_last"] + g]
+            np.add.at(weights[neuron], shared[first:last], p[header["weights"] + offsets[header["segment_weight"] + g]])
     return weights
 
 
@@ -133,16 +133,14 @@ def test_population_is_its_neurons_one_by_one(document, delay):
     ramp += "parameters: {w: {value: 0.04}}\n"
     neuron = "{kind: rybak_interneuron, leak_reversal: -45 mV, initial_potential: -40 mV}"
     alone = {name: neuron for name in ("a0", "a1", "b0", "b1")}
-    synapse = "{weight: '${w}', delay: %s}" % delay
+    synapse = f"{{weight: '${{w}}', delay: {delay}}}"
     singles = "network:\n  neurons:\n" + "".join(f"    {name}: {text}\n" for name, text in alone.items())
     singles += "  synapses:\n    inhibitory:\n"
     singles += "".join(f"      {a}: {{b0: {synapse}, b1: {synapse}}}\n" for a in ("a0", "a1"))
     singles += ramp + "record: {all: {signals: [b0.potential], every: 0.5 ms}}\n"
     pools = f"network:\n  populations:\n    a: {{size: 2, neuron: {neuron}}}\n    b: {{size: 2, neuron: {neuron}}}\n"
-    pools += (
-        "  projections:\n    p: {sender: a, receiver: b, synapse: {kind: inhibitory, weight: '${w}', delay: %s}}\n"
-        % delay
-    )
+    kind = f"{{kind: inhibitory, weight: '${{w}}', delay: {delay}}}"
+    pools += f"  projections:\n    p: {{sender: a, receiver: b, synapse: {kind}}}\n"
     pools += ramp + "record: {all: {signals: ['b[1].potential'], every: 0.5 ms}}\n"
     expected = simulate(program(document(singles))).signal("b0.potential")[1]
     assert np.ptp(expected) > 1e-3
@@ -167,7 +165,12 @@ network:
   populations: {pool: {size: 700, neuron: {kind: rybak_interneuron, leak_reversal: -45 mV}}}
   projections:
     one: {sender: pool, receiver: pool, in_degree: 30, synapse: {kind: excitatory, weight: 0.005}}
-    two: {sender: pool, receiver: pool, in_degree: 9, synapse: {kind: inhibitory, weight: 0.1}, vary: {weight: {uniform: [0, 0.1]}}}
+    two:
+      sender: pool
+      receiver: pool
+      in_degree: 9
+      synapse: {kind: inhibitory, weight: 0.1}
+      vary: {weight: {uniform: [0, 0.1]}}
 solver: {threads: %d}
 protocol: {duration: 30 ms, initial: {pool.potential: {uniform: [-60 mV, -30 mV]}}}
 record: {all: {signals: ["pool[*].potential"], every: 1 ms}}
