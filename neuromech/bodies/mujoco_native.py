@@ -24,7 +24,7 @@ _call = foreign_function(NOTHING, ADDRESS, ADDRESS)
 _exactly = numba.njit(cache=True, nogil=True, error_model="numpy")
 
 
-@_exactly  # type: ignore[untyped-decorator]
+@_exactly
 def read(engine: tuple[Any, ...], state: Floats) -> int:
     """Fill the state array; (2 n + 13 + 3 m,), see `BodyState`. Returns 0."""
     _, root, places, positions, velocities, _, forces, _ = engine
@@ -44,7 +44,7 @@ def read(engine: tuple[Any, ...], state: Floats) -> int:
     return 0
 
 
-@_exactly  # type: ignore[untyped-decorator]
+@_exactly
 def step(engine: tuple[Any, ...], torque: Floats) -> int:
     """Apply joint torques (joints,) and advance by one step. Returns the number of warnings, 0 where all is well."""
     addresses, _, places, _, _, applied, _, warnings = engine
@@ -57,14 +57,14 @@ def step(engine: tuple[Any, ...], torque: Floats) -> int:
     return total
 
 
-@_exactly  # type: ignore[untyped-decorator]
+@_exactly
 def _read_planar_root(positions: Floats, velocities: Floats, pose: Floats, velocity: Floats) -> None:
     pose[0], pose[2] = positions[0], positions[1]
     pose[4], pose[6] = sin(positions[2] / 2.0), cos(positions[2] / 2.0)
     velocity[0], velocity[2], velocity[4] = velocities[0], velocities[1], velocities[2]
 
 
-@_exactly  # type: ignore[untyped-decorator]
+@_exactly
 def _read_free_root(positions: Floats, velocities: Floats, pose: Floats, velocity: Floats) -> None:
     pose[:3] = positions[:3]
     pose[3:6] = positions[4:7]
