@@ -163,8 +163,9 @@ def _dispatch(function: str, shape: Shape, *, with_body: bool) -> str:
         f"def {function}(x, s, u, p, F, I):",
         '    """Inputs and outputs of what passes inputs straight on, in an order in which each input is ready."""',
     ]
-    for kind in phase if with_body else ():
-        if kind.early and kind.cls.output:
+    in_turn = [(kind.turn, kind) for kind in phase if kind.turn is not None]
+    for _, kind in sorted(in_turn, key=lambda pair: pair[0]):
+        if kind.cls.output:
             lines.append(f"    {_gather_all(kind, shape)}")
             lines += _loop(kind, kind.cls.output, "output")
     if not kinds:

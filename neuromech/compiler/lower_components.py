@@ -4,12 +4,13 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
 
+import networkx as nx
 import numpy as np
 
 from neuromech.compiler.buffers import Buffer
 from neuromech.compiler.layout import Layout
 from neuromech.compiler.numerics import Floats
-from neuromech.compiler.shape import KindShape, parameter_names
+from neuromech.compiler.shape import KindShape, evaluated_with_body, parameter_names
 from neuromech.compiler.wiring import varied
 from neuromech.components.base import Component, Port, State
 from neuromech.graph.model import Element, ModelGraph
@@ -57,23 +58,34 @@ def blocks(graph: ModelGraph) -> tuple[Block, ...]:
     for element in graph.elements("neuron", "population", "drive", "sensor", "muscle"):
         if isinstance(element.spec, Component):
             grouped.setdefault(type(element.spec), []).append(element)
-    waiting = set(_waiting(graph))
-    kinds = sorted(grouped, key=lambda cls: cls.kind_name())
-    return tuple(_block(cls, grouped[cls], waiting.isdisjoint(e.name for e in grouped[cls])) for cls in kinds)
+    turns = _turns(graph, grouped)
+    return tuple(_block(cls, grouped[cls], turns.get(cls)) for cls in sorted(grouped, key=_by_kind))
 
 
-def _waiting(graph: ModelGraph) -> Iterable[str]:
-    """Yield what needs an output of a muscle or a sensor."""
-    late = {element.name for element in graph.elements("muscle", "sensor")}
-    connected = graph.connections("wire", "synapse", "projection")
-    return (receiver for sender, receiver, _ in connected if sender in late)
+def _turns(graph: ModelGraph, grouped: dict[type[Component], list[Element]]) -> dict[type[Component], int]:
+    """Return the turn of each muscle or sensor class that needs only classes that had their turn before it."""
+    of = {element.name: cls for cls, elements in grouped.items() if evaluated_with_body(cls) for element in elements}
+    needs: nx.DiGraph[type[Component]] = nx.DiGraph()
+    needs.add_nodes_from(of.values())
+    for sender, receiver, _ in graph.connections("wire", "synapse", "projection"):
+        if sender in of and receiver in of:
+            needs.add_edge(of[sender], of[receiver])
+    for circle in list(nx.strongly_connected_components(needs)):
+        if len(circle) > 1 or any(needs.has_edge(cls, cls) for cls in circle):
+            late = circle.union(*(nx.descendants(needs, cls) for cls in circle))
+            needs.remove_nodes_from(late)
+    return {cls: turn for turn, cls in enumerate(nx.lexicographical_topological_sort(needs, key=_by_kind))}
 
 
-def _block(cls: type[Component], elements: list[Element], early: bool) -> Block:
+def _by_kind(cls: type[Component]) -> str:
+    return cls.kind_name()
+
+
+def _block(cls: type[Component], elements: list[Element], turn: int | None) -> Block:
     ordered = tuple(sorted(elements, key=lambda element: element.name))
     components = tuple(element.spec for element in ordered if isinstance(element.spec, Component))
     uniform = frozenset(name for name in parameter_names(cls) if _is_uniform(ordered, components, name))
-    return Block(KindShape(cls, uniform, early), ordered, components)
+    return Block(KindShape(cls, uniform, turn), ordered, components)
 
 
 def _is_uniform(elements: Iterable[Element], components: Iterable[Component], parameter: str) -> bool:

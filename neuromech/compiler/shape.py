@@ -34,12 +34,13 @@ class KindShape:
     Args:
         cls: the class.
         uniform: parameters that are one number for all its instances.
-        early: whether no instance waits for a muscle or a sensor, so that one loop evaluates them all.
+        turn: when one loop evaluates all of a muscle or sensor class, after the classes that it needs; None where its
+            instances need each other, and for all else.
     """
 
     cls: type[Component]
     uniform: frozenset[str]
-    early: bool
+    turn: int | None
 
     @property
     def name(self) -> str:
@@ -94,4 +95,4 @@ def evaluated_with_body(cls: type[Component]) -> bool:
 
 def is_scheduled(kind: KindShape) -> bool:
     """Return whether instances are evaluated one by one, in an order; all of another kind are evaluated in one loop."""
-    return not kind.early if evaluated_with_body(kind.cls) else has_feedthrough(kind.cls)
+    return kind.turn is None if evaluated_with_body(kind.cls) else has_feedthrough(kind.cls)
