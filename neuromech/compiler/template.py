@@ -186,6 +186,15 @@ def mean(k, x, s, u, I):
 
 
 @equation
+def is_due(tick, I):
+    """Return whether any record group samples this tick."""
+    for group in range(<groups>):
+        if tick % I[<group_every> + group] == 0:
+            return True
+    return False
+
+
+@equation
 def record(tick, x, s, u, I, R):
     """Copy the signals of every record group that is due. A slot counts through states, signals, inputs and means."""
     states, signals, inputs = x.shape[0], s.shape[0], u.shape[0]
@@ -297,12 +306,14 @@ NO_BODY = '''
 def run(first, last, dt, x, s, u, p, F, I, R):
     """Advance from step `first` to step `last`; return the step reached and the position of a bad state or −1."""
     for step in range(first, last):
-        apply_protocol(step * dt, p, I)
-        if <delays>:
-            delayed_inputs(step, 0.0, p, F, I)
-        network_outputs(x, s, u, p, F, I)
-        network_inputs(s, u, p, F, I)
-        record(step, x, s, u, I, R)
+        if is_due(step, I):
+            apply_protocol(step * dt, p, I)
+            if <delays>:
+                delayed_inputs(step, 0.0, p, F, I)
+            network_outputs(x, s, u, p, F, I)
+            if <inputs_recorded>:
+                network_inputs(s, u, p, F, I)
+            record(step, x, s, u, I, R)
         apply_protocol((step + 0.5) * dt, p, I)
         network_step(step, dt, x, s, u, p, F, I)
         bad = first_bad(x)
