@@ -150,11 +150,16 @@ def _record_sections(graph: ModelGraph, layout: Layout, integers: Buffer, tick: 
 
 
 def recorded(patterns: Iterable[str], graph: ModelGraph) -> list[str]:
-    """Return the names that a record group asks for, each once: in authored order, then neurons of populations."""
+    """Return the names that a record group asks for, each once, quantity by quantity.
+
+    Within a quantity they stand in authored order, then neurons of populations: a quantity's samples are one block.
+    """
     every, populations = list(signals(graph)), sizes(graph)
     wanted = dict.fromkeys(name for pattern in patterns for name in matching(pattern, every, populations))
     listed = [name for name in every if name in wanted]
-    return [*listed, *(name for name in wanted if split(name)[1] is not None)]
+    names = [*listed, *(name for name in wanted if split(name)[1] is not None)]
+    quantities = {quantity: k for k, quantity in enumerate(dict.fromkeys(name.rpartition(".")[2] for name in names))}
+    return sorted(names, key=lambda name: quantities[name.rpartition(".")[2]])
 
 
 def _fixed_step(graph: ModelGraph, has_delays: bool) -> FixedStep:

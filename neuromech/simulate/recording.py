@@ -210,8 +210,14 @@ def _dataset(data: GroupData) -> xr.Dataset:
         elements = np.array([data.names[column].rpartition(".")[0] for column in columns], dtype=np.str_)
         coordinates[dimension] = xr.Variable(dimension, elements)
         attributes = {"units": unit, "quantity": quantity}
-        variables[variable] = xr.Variable(("time", dimension), data.values[:, columns], attributes)
+        variables[variable] = xr.Variable(("time", dimension), data.values[:, _slice(columns)], attributes)
     return xr.Dataset(variables, coordinates, {"signals": json.dumps(data.names)})
+
+
+def _slice(columns: list[int]) -> slice | list[int]:
+    """Return neighbouring columns as a slice, which copies nothing."""
+    neighbours = columns == list(range(columns[0], columns[0] + len(columns)))
+    return slice(columns[0], columns[-1] + 1) if neighbours else columns
 
 
 def _variables(data: GroupData) -> dict[tuple[str, str, str], list[int]]:
