@@ -1,11 +1,11 @@
 """Everything that a document declares, scope by scope, as elements whose references are still as written."""
 
 from collections.abc import Iterator, Mapping
+from importlib import import_module
 from pathlib import Path
 
 from neuromech.components.base import Component
 from neuromech.errors import Problem
-from neuromech.graph.body_file import read_body_file
 from neuromech.graph.model import Element, NodeFamily
 from neuromech.graph.names import qualified
 from neuromech.spec.document import Document
@@ -79,7 +79,8 @@ def _of_body_file(document: Document) -> Iterator[Element]:
     file = body_file(document)
     if file is None:
         return
-    segments, joints, contacts = read_body_file(file)
+    # Few documents name such a file, and its geometry needs NumPy, which takes a tenth of a second to import.
+    segments, joints, contacts = import_module("neuromech.graph.body_file").read_body_file(file)
     yield from _of_body("", "body.file", BodyParts(segments=segments, joints=joints, contacts=contacts))
 
 

@@ -3,6 +3,9 @@
 import copy
 import math
 import pickle
+import subprocess
+import sys
+from pathlib import Path
 
 import pytest
 from hypothesis import given
@@ -18,9 +21,11 @@ from neuromech.units import (
     BoundText,
     Quantity,
     Unit,
+    common_units,
     measure,
     quantity,
     repr_short,
+    resolved,
     unit_factor,
 )
 
@@ -146,3 +151,17 @@ def test_short_text_of_what_was_found(value, text):
     short = repr_short(value)
     assert len(short) <= 60
     assert short == text or text is None
+
+
+def test_the_table_of_common_units_says_what_pint_says():
+    for unit, known in common_units().items():
+        assert resolved(unit) == known, unit
+
+
+def test_the_shipped_documents_need_no_unit_beyond_the_table():
+    code = "import sys; from neuromech.cli.main import run_arguments\n"
+    code += "try: run_arguments(['validate', *sys.argv[1:]])\n"
+    code += "finally: print(sorted({'pint', 'numpy', 'scipy', 'numba', 'matplotlib'} & set(sys.modules)))"
+    specs = Path(__file__).parents[3] / "specs"
+    done = subprocess.run([sys.executable, "-c", code, str(specs)], capture_output=True, text=True, check=True)
+    assert done.stdout.splitlines()[-1] == "[]"
