@@ -3,7 +3,6 @@
 import subprocess
 import sys
 import threading
-import time
 from dataclasses import replace
 from pathlib import Path
 
@@ -19,8 +18,6 @@ from neuromech.spec.model import Contact, World
 from neuromech.testing.bodies import run
 from neuromech.testing.body_models import block, chains, pendulum, vector
 from neuromech.units import Quantity
-
-SCHEDULE = Path("/proc/thread-self/schedstat")
 
 
 @numba.njit(nogil=True)
@@ -198,37 +195,6 @@ def test_bodies_in_two_threads_do_not_disturb_each_other():
             expected = np.zeros(alone.layout.size)
             loop(alone.native(), expected, torque, 2000)
         assert np.array_equal(state, expected)
-
-
-@pytest.mark.slow
-@pytest.mark.skipif(not SCHEDULE.exists(), reason="needs the scheduler's account of a thread")
-def test_two_threads_step_almost_twice_as_much_as_one():
-    """Waiting for a core that other programs hold does not count, waiting for a lock does."""
-    steps = 20_000
-    with PyBulletBody(block(0.06), 1e-3) as one, PyBulletBody(block(0.06), 1e-3) as two:
-        timed_loop(one, 100, [])
-        timed_loop(two, 100, [])
-        ratios = []
-        for _ in range(7):
-            alone, together = [], []
-            timed_loop(one, steps, alone)
-            threads = [threading.Thread(target=timed_loop, args=(body, steps, together)) for body in (one, two)]
-            for thread in threads:
-                thread.start()
-            for thread in threads:
-                thread.join()
-            ratios.append(2.0 * alone[0] / max(together))
-    assert np.median(ratios) >= 1.7, ratios
-
-
-def timed_loop(body, steps, seconds):
-    queued, wall = queue_seconds(), time.perf_counter()
-    loop(body.native(), np.zeros(body.layout.size), np.zeros(len(body.joints)), steps)
-    seconds.append(time.perf_counter() - wall - (queue_seconds() - queued))
-
-
-def queue_seconds():
-    return int(SCHEDULE.read_text().split()[1]) * 1e-9
 
 
 @pytest.mark.skipif(not Path("/proc/self/statm").exists(), reason="needs the memory of the process")
