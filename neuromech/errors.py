@@ -3,7 +3,6 @@
     NeuromechError
     ├── DocumentError        exit code 2: the document is wrong; carries every Problem found
     ├── RunError             exit code 3: the run ended early (fell, diverged)
-    ├── ClaimError           exit code 4: a claim is not met
     ├── RecordingError       exit code 2: a results file, or a signal asked of it, is not there
     ├── MeasureError         exit code 2: a measure or an expectation does not fit the signals it is about
     └── MissingExtraError    exit code 2: an optional dependency is not installed
@@ -77,12 +76,6 @@ class RunError(NeuromechError):
     """A run ended before its protocol did."""
 
     exit_code: ClassVar[int] = 3
-
-
-class ClaimError(NeuromechError):
-    """At least one claim of a document is not met."""
-
-    exit_code: ClassVar[int] = 4
 
 
 class RecordingError(NeuromechError):

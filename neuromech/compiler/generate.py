@@ -75,7 +75,7 @@ def _imports(shape: Shape) -> str:
         "from neuromech.compiler.kinematics import segment_velocities, world_axis",
         "from neuromech.compiler.numerics import compiled, elementwise, equation, interpolate, relaxed",
         "from neuromech.compiler.numerics import sum_at, weighted_sum_at",
-        "from neuromech.compiler.paths import constant_path, straight_path",
+        "from neuromech.compiler.paths import straight_path",
         "from neuromech.compiler.team import DONE, FIRST, HELPERS, LAST, NEXT, ORDER, PART, STOP",
         "from neuromech.compiler.team import add, load, rest_now_and_then, store",
         *sorted({f"from {kind.cls.__module__} import {kind.cls.__qualname__}" for kind in shape.kinds}),

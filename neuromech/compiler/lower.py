@@ -30,7 +30,7 @@ from neuromech.errors import DocumentError
 from neuromech.graph.model import BodyModel, ModelGraph
 from neuromech.graph.signals import matching, signals, sizes, split
 
-_STAGE_ARRAYS = 5
+_STAGE_ARRAYS = 4
 # Synapses from which on a second thread makes a step shorter (docs/performance.md).
 _BREAK_EVEN = 300_000
 

@@ -6,17 +6,6 @@ from neuromech.compiler.numerics import Floats, Integers, equation
 
 
 @equation
-def constant_path(
-    reference_length: float, reference_angles: Floats, arms: Floats, joint: Integers, angle: Floats
-) -> float:
-    """Return l = l_ref − Σ r_j (q_j − q_ref,j) in m; all arrays (k,) over the joints that the path crosses."""
-    length = reference_length
-    for k in range(joint.shape[0]):
-        length -= arms[k] * (angle[joint[k]] - reference_angles[k])
-    return length
-
-
-@equation
 def straight_path(
     points: Floats,
     carrier: Integers,

@@ -15,16 +15,14 @@ from neuromech.compiler.numerics import Floats, Integers
 MOST_ENTRIES = 8.0
 """Mean number of entries of a row up to which slots pay; measured with the networks of the benchmark."""
 
-TABLE_FRONT = 4
-"""Numbers in front of a table's row counts: rows with entries, slots, first entry, first row in order."""
-
 
 @dataclass(frozen=True)
 class Slots:
     """All kinds' entries slot by slot.
 
     Args:
-        tables: for each kind its table, one after the other.
+        tables: for each kind its table, one after the other: number of rows with entries, of slots, first entry, first
+            row in `order`, then the number of rows of each slot.
         starts: where in `tables` each kind's table starts.
         order: rows with entries, kind by kind, those with most entries first.
         place: position of each given entry in the new order.

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from typing import Literal
+from typing import Final, Literal
 from xml.etree import ElementTree
 
 import numpy as np
@@ -12,6 +12,14 @@ from numpy.typing import NDArray
 from neuromech.errors import did_you_mean
 
 Floats = NDArray[np.float64]
+
+JOINT_KINDS: Final[dict[str, Literal["hinge", "slide", "fixed"]]] = {
+    "revolute": "hinge",
+    "continuous": "hinge",
+    "prismatic": "slide",
+    "fixed": "fixed",
+}
+"""What URDF and SDF call a joint -> what it is here."""
 
 
 @dataclass(frozen=True, slots=True)

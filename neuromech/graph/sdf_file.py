@@ -1,6 +1,6 @@
 """Reading SDF: one model, each pose in its default frame (link: model, joint: child link). Visuals are not read."""
 
-from typing import Final, Literal
+from typing import Final
 from xml.etree import ElementTree
 
 import numpy as np
@@ -8,6 +8,7 @@ import numpy as np
 from neuromech.errors import did_you_mean
 from neuromech.graph.robot_parts import (
     IDENTITY,
+    JOINT_KINDS,
     Floats,
     Link,
     Pose,
@@ -21,12 +22,6 @@ from neuromech.graph.robot_parts import (
     turned,
 )
 
-_KINDS: Final[dict[str, Literal["hinge", "slide", "fixed"]]] = {
-    "revolute": "hinge",
-    "continuous": "hinge",
-    "prismatic": "slide",
-    "fixed": "fixed",
-}
 _UNLIMITED: Final = 1e15  # SDF writes ±1e16 for a joint without limits.
 _FOREIGN_FRAMES: Final = ("relative_to", "expressed_in", "frame")
 
@@ -87,9 +82,9 @@ def _sphere(link: str, collision: ElementTree.Element) -> tuple[Floats, float]:
 
 def _joint(name: str, element: ElementTree.Element) -> RobotJoint:
     kind = element.get("type", "")
-    if kind not in _KINDS:
+    if kind not in JOINT_KINDS:
         raise ValueError(
-            f"joint '{name}' has a type that is not supported (got '{kind}'; {did_you_mean(kind, _KINDS)})"
+            f"joint '{name}' has a type that is not supported (got '{kind}'; {did_you_mean(kind, JOINT_KINDS)})"
         )
     parent = (element.findtext("parent") or "").strip()
     if parent == "world":
@@ -98,7 +93,7 @@ def _joint(name: str, element: ElementTree.Element) -> RobotJoint:
         raise ValueError(f"joint '{name}' has dry friction, which is not supported")
     return RobotJoint(
         name=name,
-        kind=_KINDS[kind],
+        kind=JOINT_KINDS[kind],
         parent=parent,
         child=(element.findtext("child") or "").strip(),
         axis=numbers(element.findtext("axis/xyz", "0 0 1"), 3, f"axis of joint '{name}'"),

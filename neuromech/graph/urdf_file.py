@@ -1,6 +1,5 @@
 """Reading URDF. Visuals, meshes and limits of effort and velocity are not read: they do not move a body."""
 
-from typing import Final, Literal
 from xml.etree import ElementTree
 
 import numpy as np
@@ -8,6 +7,7 @@ import numpy as np
 from neuromech.errors import did_you_mean
 from neuromech.graph.robot_parts import (
     IDENTITY,
+    JOINT_KINDS,
     Floats,
     Link,
     Pose,
@@ -20,13 +20,6 @@ from neuromech.graph.robot_parts import (
     symmetric,
     turned,
 )
-
-_KINDS: Final[dict[str, Literal["hinge", "slide", "fixed"]]] = {
-    "revolute": "hinge",
-    "continuous": "hinge",
-    "prismatic": "slide",
-    "fixed": "fixed",
-}
 
 
 def read_urdf(robot: ElementTree.Element) -> Robot:
@@ -76,9 +69,9 @@ def _sphere(link: str, collision: ElementTree.Element) -> tuple[Floats, float]:
 
 def _joint(name: str, element: ElementTree.Element) -> RobotJoint:
     kind = element.get("type", "")
-    if kind not in _KINDS:
+    if kind not in JOINT_KINDS:
         raise ValueError(
-            f"joint '{name}' has a type that is not supported (got '{kind}'; {did_you_mean(kind, _KINDS)})"
+            f"joint '{name}' has a type that is not supported (got '{kind}'; {did_you_mean(kind, JOINT_KINDS)})"
         )
     if element.find("mimic") is not None:
         raise ValueError(f"joint '{name}' mimics another joint, which is not supported")
@@ -86,7 +79,7 @@ def _joint(name: str, element: ElementTree.Element) -> RobotJoint:
         raise ValueError(f"joint '{name}' has dry friction, which is not supported")
     return RobotJoint(
         name=name,
-        kind=_KINDS[kind],
+        kind=JOINT_KINDS[kind],
         parent=_attribute(element, "parent", "link") or "",
         child=_attribute(element, "child", "link") or "",
         axis=numbers(_attribute(element, "axis", "xyz", "1 0 0"), 3, f"axis of joint '{name}'"),
