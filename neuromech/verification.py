@@ -4,11 +4,13 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from neuromech.analyse.checks import claim_problems
 from neuromech.analyse.claims import Verdict, judge
-from neuromech.analyse.measures import MeasuredValue, measure, measure_kind
+from neuromech.analyse.measures import MeasuredValue, measure
 from neuromech.compiler.lower import lower
 from neuromech.compiler.program import Program
 from neuromech.components.catalogue import Catalogue
+from neuromech.errors import DocumentError
 from neuromech.graph.build import build
 from neuromech.graph.check import check
 from neuromech.simulate.recording import Recording
@@ -59,6 +61,17 @@ class Plan:
         return sum(self.repetitions(variant) for variant in self.distinct())
 
 
+def check_claims(document: Document) -> None:
+    """Refuse claims that no run could judge, before anything runs.
+
+    Raises:
+        DocumentError: a claim names no measure, leaves out what its measure needs, or expects what does not fit it.
+    """
+    problems = claim_problems(document)
+    if problems:
+        raise DocumentError(problems)
+
+
 def plan(document: Document, seeds: int | None = None) -> Plan:
     """Return the runs that the claims of a document need.
 
@@ -67,11 +80,10 @@ def plan(document: Document, seeds: int | None = None) -> Plan:
         seeds: how many seeds each claim is repeated with; what the claims say where None is given.
 
     Raises:
-        MeasureError: a claim names no measure, or leaves out what its measure needs.
+        DocumentError: a claim names no measure, leaves out what its measure needs, or expects what does not fit it.
     """
+    check_claims(document)
     claims = document.experiment.claims
-    for claim in claims.values():
-        measure_kind(claim.measure)
     variants = {identifier: _variants(document, identifier, claim) for identifier, claim in claims.items()}
     return Plan(document, variants, {identifier: seeds or claim.seeds for identifier, claim in claims.items()})
 

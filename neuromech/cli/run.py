@@ -25,7 +25,7 @@ from neuromech.simulate.recording import Recording
 from neuromech.simulate.run import simulate
 from neuromech.simulate.storage import save
 from neuromech.units import TIME
-from neuromech.verification import all_met, judge_run
+from neuromech.verification import all_met, check_claims, judge_run
 
 RESULTS_FILE = "recording.nc"
 FIGURES_FOLDER = "figures"
@@ -68,6 +68,7 @@ def run(request: Request) -> int:
     """
     duration = _duration(request.duration)
     document = load_document(request.spec, request.overrides)
+    check_claims(document)
     program = lower(build_graph(document))
     folder = _writable(request.out or Path("results") / _folder_name(document.experiment.name))
     recording = _simulated(program, request, duration)
