@@ -274,6 +274,11 @@ def measure(value: str | int | float) -> tuple[float, str]:
     return float(match[1]) * factor, dimension
 
 
+def unit_text(value: str | int | float) -> str:
+    """Return the unit that a quantity is written with, empty where there is none."""
+    return re.sub(rf"^\s*{NUMBER}\s*", "", str(value)).strip()
+
+
 def quantity(text: str) -> Quantity:
     """Return the SI value of text such as `20 pF`, of whatever dimension. For defaults in our own code.
 

@@ -1,11 +1,9 @@
 """What a claim demands of a measured value."""
 
-import re
-
 from neuromech.analyse.windows import in_unit
 from neuromech.errors import MeasureError
-from neuromech.spec.model import Expected
-from neuromech.units import NUMBER, unit_factor
+from neuromech.spec.measure import Expected
+from neuromech.units import unit_factor, unit_text
 
 Value = float | str
 Written = str | int | float
@@ -73,7 +71,7 @@ class Expectation:
 
     def _tolerance(self, within: Written, value: float) -> float:
         """Return the half width of the interval: a percentage is relative to the value, all else is absolute."""
-        if _unit_text(within) == "%":
+        if unit_text(within) == "%":
             return abs(value) * in_unit(within, "", "percentage")
         return self._number(within, "within")
 
@@ -87,12 +85,8 @@ class Expectation:
 def written_unit(expected: Expected) -> str:
     """Return the unit text of the first number that an expectation is written with, empty where there is none."""
     written = (expected.value, expected.at_least, expected.at_most)
-    return next((_unit_text(value) for value in written if value is not None), "")
+    return next((unit_text(value) for value in written if value is not None), "")
 
 
 def _bounded(expected: Expected) -> bool:
     return expected.at_least is not None or expected.at_most is not None
-
-
-def _unit_text(written: Written) -> str:
-    return re.sub(rf"^\s*{NUMBER}\s*", "", str(written)).strip()

@@ -9,7 +9,7 @@ from pydantic_core import PydanticCustomError
 
 from neuromech.errors import MeasureError
 from neuromech.simulate.recording import Recording
-from neuromech.spec.model import Measure
+from neuromech.spec.measure import Measure
 from neuromech.units import Unit, unit_factor
 
 Array = NDArray[np.float64]

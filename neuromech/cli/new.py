@@ -9,7 +9,8 @@ from neuromech.cli.terminal import FINISHED, note
 from neuromech.components.catalogue import Catalogue
 from neuromech.errors import DocumentError, Problem, did_you_mean
 from neuromech.spec.load import load
-from neuromech.spec.model import NAME_PATTERN, Parameter
+from neuromech.spec.model import Parameter
+from neuromech.spec.scalars import NAME_PATTERN
 
 
 def new(name: str, base: str) -> int:

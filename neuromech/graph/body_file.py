@@ -13,7 +13,8 @@ import numpy as np
 from neuromech.graph.robot_parts import Floats, Link, Pose, Robot, RobotJoint, parse_xml
 from neuromech.graph.sdf_file import read_sdf
 from neuromech.graph.urdf_file import read_urdf
-from neuromech.spec.model import NAME_PATTERN, Contact, Joint, Segment
+from neuromech.spec.model import Contact, Joint, Segment
+from neuromech.spec.scalars import NAME_PATTERN
 from neuromech.units import Quantity
 
 _READERS: Final = {"robot": read_urdf, "sdf": read_sdf}

@@ -25,7 +25,7 @@ from neuromech.report.layout import (
     trace,
 )
 from neuromech.simulate.recording import Recording
-from neuromech.spec.model import Measure
+from neuromech.spec.measure import Measure
 from neuromech.units import Quantity
 
 MOST_POINTS = 6000

@@ -8,7 +8,7 @@ from rich.text import Text
 from neuromech.analyse.measures import MeasuredValue, measure
 from neuromech.report.layout import by_scope, in_shown_unit, shown_unit
 from neuromech.simulate.recording import Recording
-from neuromech.spec.model import Measure
+from neuromech.spec.measure import Measure
 from neuromech.units import Quantity
 
 

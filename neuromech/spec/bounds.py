@@ -6,8 +6,9 @@ from dataclasses import dataclass
 from typing import Self
 
 from neuromech.errors import Problem
-from neuromech.spec.model import Parameter, Written
+from neuromech.spec.model import Parameter
 from neuromech.spec.node import join
+from neuromech.spec.scalars import Written
 from neuromech.units import measure, repr_short
 
 

@@ -7,10 +7,13 @@ scope's name, a dot, and its own (`LF.RG-F`). A reference is looked up in its ow
 from collections.abc import Mapping
 from typing import Annotated, Literal
 
-from pydantic import Field, StrictFloat, StrictInt, StringConstraints, field_validator
+from pydantic import Field, field_validator
 
 from neuromech.components.base import Drive, Muscle, Neuron, Sensor, SpecModel, Synapse
 from neuromech.spec.fields import KindFromKey, OfCatalogue
+from neuromech.spec.measure import Expected, Measure
+from neuromech.spec.scalars import Name, PositiveTime, Seed, Written
+from neuromech.spec.study import Study
 from neuromech.units import (
     ACCELERATION,
     ANGLE,
@@ -30,11 +33,7 @@ from neuromech.units import (
     quantity,
 )
 
-NAME_PATTERN = r"^[A-Za-z][A-Za-z0-9_+-]*$"
-Name = Annotated[str, StringConstraints(pattern=NAME_PATTERN)]
 Vector = tuple[Length, Length, Length]
-Written = str | StrictInt | StrictFloat
-PositiveTime = Annotated[Quantity, TIME.positive]
 
 
 class Parameter(SpecModel):
@@ -51,9 +50,6 @@ class Uniform(SpecModel):
     """A uniform distribution over an interval; the unit is that of the value it stands for."""
 
     uniform: tuple[Written, Written]
-
-
-Seed = Annotated[int, Field(ge=0, strict=True)]
 
 
 class Population(SpecModel):
@@ -291,35 +287,6 @@ class RecordGroup(SpecModel):
     every: PositiveTime
 
 
-class Expected(SpecModel):
-    """What a measured value must satisfy: `value` with `within`, or bounds. Text keeps the unit of the measure."""
-
-    value: Written | None = None
-    within: Written | None = None
-    at_least: Written | None = None
-    at_most: Written | None = None
-    equals: str | None = None
-
-
-class Measure(SpecModel):
-    """A measure of `neuromech.analyse` and its arguments.
-
-    `after` and `until` bound the part of the run that is looked at. `level`, `least_amplitude` and `tolerance` are in
-    units of the signal; `event` says which instant of a cycle a phase is about.
-    """
-
-    kind: str
-    signal: str | None = None
-    signals: tuple[str, ...] | None = None
-    reference: str | None = None
-    after: Annotated[Quantity, TIME.non_negative] = quantity("0 s")
-    until: PositiveTime | None = None
-    level: Written | None = None
-    least_amplitude: Written | None = None
-    tolerance: Written | None = None
-    event: Literal["onset", "center"] = "onset"
-
-
 class Claim(SpecModel):
     """A checked statement about a run of this document.
 
@@ -353,4 +320,5 @@ class Experiment(Scope):
     protocol: Protocol
     solver: Solver = Solver()
     record: dict[Name, RecordGroup] = {}
+    study: Study | None = None
     claims: dict[Name, Claim] = {}

@@ -13,7 +13,8 @@ from pydantic_core import PydanticUndefined
 
 from neuromech.components.base import Component
 from neuromech.components.catalogue import Catalogue
-from neuromech.spec.model import NAME_PATTERN, Experiment, Instance
+from neuromech.spec.model import Experiment, Instance
+from neuromech.spec.scalars import NAME_PATTERN
 from neuromech.spec.shape import Choice, Fields, Items, Leaf, Names, Table, field_annotation, kind_word, shape_of
 from neuromech.units import NUMBER, Unit
 

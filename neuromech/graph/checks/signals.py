@@ -7,7 +7,8 @@ from pydantic_core import PydanticCustomError
 from neuromech.errors import Problem, did_you_mean
 from neuromech.graph.model import ModelGraph
 from neuromech.graph.signals import matching, signals, sizes, split, states
-from neuromech.spec.model import Measure, Uniform
+from neuromech.spec.measure import Measure
+from neuromech.spec.model import Uniform
 from neuromech.units import Unit
 
 

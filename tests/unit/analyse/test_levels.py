@@ -7,7 +7,7 @@ from neuromech.analyse.levels import rms_difference_of_runs
 from neuromech.analyse.measures import MeasuredValue, measure
 from neuromech.analyse.windows import NotMeasurableError, View
 from neuromech.errors import MeasureError
-from neuromech.spec.model import Measure
+from neuromech.spec.measure import Measure
 
 
 def take(recording, **spec):

@@ -7,7 +7,7 @@ from neuromech.analyse.cycles import bursts, onsets
 from neuromech.analyse.measures import MeasuredValue, measure
 from neuromech.errors import MeasureError, RecordingError
 from neuromech.simulate.recording import Outcome
-from neuromech.spec.model import Measure
+from neuromech.spec.measure import Measure
 
 
 def take(recording, **spec):

@@ -6,7 +6,7 @@ import pytest
 from neuromech.analyse.measures import measure
 from neuromech.analyse.phases import circular_distance, circular_mean
 from neuromech.analyse.windows import NotMeasurableError
-from neuromech.spec.model import Measure
+from neuromech.spec.measure import Measure
 
 LEGS = ("LF", "RF", "LH", "RH")
 
