@@ -1,0 +1,118 @@
+"""CMA-ES by the library `cmaes`, with ranks for values, and a state that can be stored.
+
+The library's update is active: it also learns from the worse half. It keeps bounds by drawing anew, and by cutting what
+is still outside after 100 draws. It sees ranks instead of scores, which is all that CMA-ES uses of them; so stages and
+failures need no numbers. Equal scores have equal ranks, and all failed candidates are the last.
+
+Source: Hansen 2016, arXiv:1604.00772. Restarts with a growing population: Auger & Hansen 2005,
+10.1109/CEC.2005.1554902.
+"""
+
+from collections.abc import Mapping
+from importlib import import_module
+from typing import Annotated, Any, ClassVar, Final, Literal
+
+import numpy as np
+from numpy.random import Generator
+from pydantic import Field
+
+from neuromech.errors import MissingExtraError
+from neuromech.study.algorithms.base import Floats, Generational, Settings, State
+from neuromech.study.score import Score, ranks
+from neuromech.units import DIMENSIONLESS, Quantity, quantity
+
+_CHANGING: Final = ("_g", "_mean", "_sigma", "_c_1d", "_p_sigma", "_pc", "_funhist_values")
+
+
+class CmaEsSettings(Settings):
+    """Settings of `cma_es`."""
+
+    kind: Literal["cma_es"] = "cma_es"
+    population: Annotated[
+        int | None, Field(ge=3, strict=True, description="candidates; by default 4 + 3 ln(number of parameters)")
+    ] = None
+    step: Annotated[Quantity, DIMENSIONLESS.within(0.0, 1.0).positive] = quantity("0.3")
+    restarts: Literal["none", "ipop"] = "none"
+
+
+class CmaEs(Generational):
+    """Covariance matrix adaptation; restarts from a random place with twice the population where that is asked for."""
+
+    settings_type: ClassVar[type[Settings]] = CmaEsSettings
+    settings: CmaEsSettings
+
+    def first(self, random: Generator) -> Floats:
+        """Return the first generation, drawn around the start, or around the middle where there is none.
+
+        Raises:
+            MissingExtraError: the library is not installed.
+        """
+        mean = np.full(self.dimension, 0.5) if self.start is None else self.start
+        return self._begin(mean, self.settings.population, random)
+
+    def advance(self, points: Floats, scores: tuple[Score | None, ...], random: Generator) -> Floats:
+        """Update the distribution and draw from it.
+
+        Where all candidates failed, or where the search has come to its end and shall not restart, the distribution
+        stays as it is.
+        """
+        if all(score is None for score in scores):
+            return self._drawn(random)
+        optimizer = self._optimizer()
+        optimizer.tell(list(zip(points, map(float, ranks(scores)), strict=True)))
+        if not optimizer.should_stop():
+            self._keep(optimizer)
+        elif self.settings.restarts == "ipop":
+            return self._begin(random.random(self.dimension), 2 * len(points), random)
+        return self._drawn(random)
+
+    def memory(self) -> State:
+        """Return what the library's optimiser knows, without what follows from its settings."""
+        return dict(self._known)
+
+    def remember(self, memory: Mapping[str, Any]) -> None:
+        """Take what the library's optimiser knows."""
+        self._known = dict(memory)
+
+    def _begin(self, mean: Floats, population: int | None, random: Generator) -> Floats:
+        optimizer = self._new(mean, population)
+        # The library allocates its history without values; what memory held by chance must not be stored.
+        optimizer.__dict__["_funhist_values"][:] = 0.0
+        self._keep(optimizer)
+        return self._drawn(random)
+
+    def _new(self, mean: Floats, population: int | None) -> Any:
+        bounds = np.tile([0.0, 1.0], (self.dimension, 1))
+        return load_cmaes().CMA(mean, float(self.settings.step), bounds, population_size=population)
+
+    def _keep(self, optimizer: Any) -> None:
+        inside = optimizer.__getstate__()
+        self._known = {name.strip("_"): np.asarray(inside[name]).tolist() for name in _CHANGING}
+        self._known["population"] = optimizer.population_size
+
+    def _optimizer(self) -> Any:
+        """Return the library's optimiser as it is known: every generation goes on from what could be stored."""
+        optimizer = self._new(np.full(self.dimension, 0.5), self._known["population"])
+        inside = optimizer.__getstate__()
+        for name in _CHANGING:
+            value = self._known[name.strip("_")]
+            inside[name] = np.array(value, dtype=np.float64) if isinstance(value, list) else value
+        optimizer.__setstate__(inside)
+        return optimizer
+
+    def _drawn(self, random: Generator) -> Floats:
+        optimizer = self._optimizer()
+        optimizer.reseed_rng(int(random.integers(2**32)))
+        return np.array([optimizer.ask() for _ in range(optimizer.population_size)])
+
+
+def load_cmaes() -> Any:
+    """Import the package `cmaes`, which is an extra.
+
+    Raises:
+        MissingExtraError: it is not installed.
+    """
+    try:
+        return import_module("cmaes")
+    except ModuleNotFoundError as error:
+        raise MissingExtraError("cmaes", "study") from error
