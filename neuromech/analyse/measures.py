@@ -3,9 +3,8 @@
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import Literal, get_args
+from typing import Literal
 
-from neuromech.analyse.cycles import NO_RHYTHM
 from neuromech.analyse.levels import (
     correlation,
     final,
@@ -23,7 +22,7 @@ from neuromech.analyse.oscillation import amplitude, burst_duration, center, per
 from neuromech.analyse.phases import gait, interlimb_phases, phase, phase_order
 from neuromech.analyse.windows import NotMeasurableError, View
 from neuromech.errors import MeasureError, did_you_mean
-from neuromech.simulate.recording import OutcomeKind, Recording
+from neuromech.simulate.recording import Recording
 from neuromech.spec.measure import Measure
 
 Result = Literal["signal", "time", "number", "text"]
@@ -46,50 +45,36 @@ class MeasuredValue:
 
 @dataclass(frozen=True, slots=True)
 class MeasureKind:
-    """A kind of measure.
-
-    Args:
-        take: how to take it.
-        result: what it gives.
-        needs: the arguments that it needs.
-        of_early_end: whether it may be taken of a run that ended early, in a fall for example.
-        least: no value is below this, SI units; None where there is no limit.
-        most: no value is above this.
-        words: the words that a measure of text may give; empty where they depend on the model.
-    """
+    """A kind of measure: how to take it, what it gives, and the arguments that it needs."""
 
     take: Callable[[View], float | str]
     result: Result
     needs: tuple[Argument, ...]
-    of_early_end: bool = False
-    least: float | None = None
-    most: float | None = None
-    words: tuple[str, ...] = ()
 
 
 MEASURES: Mapping[str, MeasureKind] = MappingProxyType(
     {
-        "outcome": MeasureKind(outcome, "text", (), of_early_end=True, words=get_args(OutcomeKind)),
-        "period": MeasureKind(period, "time", ("signal",), least=0.0),
-        "rhythm": MeasureKind(rhythm, "text", ("signal",), words=("rhythm", NO_RHYTHM)),
+        "outcome": MeasureKind(outcome, "text", ()),
+        "period": MeasureKind(period, "time", ("signal",)),
+        "rhythm": MeasureKind(rhythm, "text", ("signal",)),
         "center": MeasureKind(center, "signal", ("signal",)),
-        "amplitude": MeasureKind(amplitude, "signal", ("signal",), least=0.0),
-        "settling_time": MeasureKind(settling_time, "time", ("signal", "tolerance"), least=0.0),
-        "burst_duration": MeasureKind(burst_duration, "time", ("signal", "level"), least=0.0),
-        "phase": MeasureKind(phase, "number", ("signal", "reference"), least=0.0, most=1.0),
+        "amplitude": MeasureKind(amplitude, "signal", ("signal",)),
+        "settling_time": MeasureKind(settling_time, "time", ("signal", "tolerance")),
+        "burst_duration": MeasureKind(burst_duration, "time", ("signal", "level")),
+        "phase": MeasureKind(phase, "number", ("signal", "reference")),
         "phase_order": MeasureKind(phase_order, "text", ("signals", "reference")),
         "interlimb_phases": MeasureKind(interlimb_phases, "text", ("signals",)),
         "gait": MeasureKind(gait, "text", ("signals",)),
         "silence": MeasureKind(silence, "signal", ("signals",)),
-        "held": MeasureKind(held, "text", ("signal", "level"), words=("held", "released")),
-        "fraction_active": MeasureKind(fraction_active, "number", ("signal",), least=0.0, most=1.0),
+        "held": MeasureKind(held, "text", ("signal", "level")),
+        "fraction_active": MeasureKind(fraction_active, "number", ("signal",)),
         "mean": MeasureKind(mean, "signal", ("signal",)),
         "minimum": MeasureKind(minimum, "signal", ("signal",)),
         "maximum": MeasureKind(maximum, "signal", ("signal",)),
-        "range": MeasureKind(span, "signal", ("signal",), least=0.0),
+        "range": MeasureKind(span, "signal", ("signal",)),
         "final": MeasureKind(final, "signal", ("signal",)),
-        "rms_difference": MeasureKind(rms_difference, "signal", ("signal", "reference"), least=0.0),
-        "correlation": MeasureKind(correlation, "number", ("signal", "reference"), least=-1.0, most=1.0),
+        "rms_difference": MeasureKind(rms_difference, "signal", ("signal", "reference")),
+        "correlation": MeasureKind(correlation, "number", ("signal", "reference")),
     }
 )
 
@@ -112,8 +97,8 @@ def measure_kind(spec: Measure) -> MeasureKind:
 def measure(recording: Recording, spec: Measure) -> MeasuredValue:
     """Take a measure of a recording.
 
-    Of a run that ended before the measure's `until` (before its protocol's end, where none is given), only measures
-    `of_early_end` can be taken.
+    Of a run that ended before the measure's `until` (before its protocol's end, where none is given), only `outcome`
+    can be measured.
 
     Raises:
         MeasureError: there is no such kind, an argument is missing or does not fit the signal.
@@ -122,7 +107,7 @@ def measure(recording: Recording, spec: Measure) -> MeasuredValue:
     kind = measure_kind(spec)
     unit = _unit(View(recording, spec), kind)
     end = recording.outcome
-    if not kind.of_early_end and end.kind != "finished" and (spec.until is None or end.time < spec.until):
+    if spec.kind != "outcome" and end.kind != "finished" and (spec.until is None or end.time < spec.until):
         return MeasuredValue(f"the run {_ENDED[end.kind]} at {end.time:g} s", unit)
     try:
         return MeasuredValue(kind.take(View(recording, spec)), unit)

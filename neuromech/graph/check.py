@@ -30,9 +30,9 @@ from neuromech.graph.checks.populations import (
 )
 from neuromech.graph.checks.ports import port_missing, unit_clash
 from neuromech.graph.checks.signals import (
-    claim_on_unrecorded,
     initial_matches_nothing,
     initial_of_wrong_unit,
+    measure_of_unrecorded,
     record_matches_nothing,
 )
 from neuromech.graph.checks.timing import delay_below_step
@@ -71,7 +71,7 @@ RULES: tuple[Rule, ...] = (
     sensor_without_target,
     algebraic_loop,
     record_matches_nothing,
-    claim_on_unrecorded,
+    measure_of_unrecorded,
     initial_matches_nothing,
     initial_of_wrong_unit,
 )

@@ -9,6 +9,10 @@ from neuromech.spec.bounds import Bounds, check_parameter, check_value
 from neuromech.spec.clocks import time_text, whole_multiple
 from neuromech.spec.model import Claim, Experiment, Parameter, Protocol, RecordGroup, Solver
 from neuromech.spec.node import join
+from neuromech.spec.objective_rules import check_expected, check_objective
+from neuromech.spec.study import Study
+from neuromech.spec.study_rules import check_study
+from neuromech.units import Quantity
 
 
 @dataclass(frozen=True)
@@ -19,6 +23,7 @@ class Sections:
     protocol: Protocol | None = None
     solver: Solver | None = None
     record: Mapping[str, RecordGroup] | None = None
+    study: Study | None = None
     claims: Mapping[str, Claim] | None = None
     has_body: bool = False
 
@@ -45,8 +50,12 @@ def check(sections: Sections, asked: frozenset[str]) -> Iterator[Problem]:
     if sections.protocol is not None and sections.claims is not None and sections.parameters is not None:
         yield from _unused(sections.parameters, asked | _mentioned(sections.protocol, sections.claims))
     yield from _clocks(sections)
+    if sections.study is not None:
+        yield from check_study(sections.study, sections.parameters)
+        yield from _stop_in_time(sections.study, sections.protocol)
+        yield from check_objective(sections.study.objective)
     for name, claim in (sections.claims or {}).items():
-        yield from _expected(claim, f"claims.{name}.expected")
+        yield from check_expected(claim.expected, f"claims.{name}.expected")
 
 
 def _unused(parameters: Mapping[str, Parameter], used: frozenset[str]) -> Iterator[Problem]:
@@ -114,15 +123,20 @@ def _clocks(sections: Sections) -> Iterator[Problem]:
     ]
     if sections.protocol is not None:
         found.append(whole_multiple(sections.protocol.duration, tick, "protocol.duration", name))
+    if sections.study is not None:
+        found += _study_clocks(sections.study, tick, name)
     yield from (problem for problem in found if problem is not None)
 
 
-def _expected(claim: Claim, path: str) -> Iterator[Problem]:
-    given = claim.expected.model_dump(exclude_none=True)
-    if not given:
-        words = ", ".join(type(claim.expected).model_fields)
-        yield Problem("claim", path, "demands nothing", None, f"give at least one of {words}")
-    if "within" in given and "value" not in given:
-        yield Problem("claim", join(path, "within"), "needs 'value' beside it", None, "within what of which value?")
-    if "value" in given and "within" not in given:
-        yield Problem("claim", join(path, "value"), "needs 'within' beside it", None, "for example 'within: 10 %'")
+def _stop_in_time(study: Study, protocol: Protocol | None) -> Iterator[Problem]:
+    end = study.duration or (protocol.duration if protocol else None)
+    if study.stop_early is not None and end is not None and study.stop_early.at >= end:
+        message = f"must be before the end of a run, {time_text(end)}"
+        yield Problem("protocol-time", "study.stop_early.at", message, time_text(study.stop_early.at))
+
+
+def _study_clocks(study: Study, tick: Quantity, name: str) -> Iterator[Problem | None]:
+    if study.duration is not None:
+        yield whole_multiple(study.duration, tick, "study.duration", name)
+    if study.stop_early is not None:
+        yield whole_multiple(study.stop_early.at, tick, "study.stop_early.at", name)

@@ -1,5 +1,6 @@
 """The `study` section: what is tuned, by which algorithm, and how a run is judged."""
 
+from collections.abc import Iterator
 from typing import Annotated, Literal
 
 from pydantic import Field
@@ -47,7 +48,8 @@ class Term(SpecModel):
 
     `scale` is the difference that counts as one point. `saturating` counts a deviation d as -d / (scale + d), `linear`
     as -d / scale; a direction counts ± value / scale, for `maximize` up to `up_to`; `logistic` counts from 0 to 1
-    around `center`. `worst` are the points where the measure could not be taken, and the fewest that count.
+    around `center`; a wrong word counts -1. `worst` are the fewest points that count, also where the measure could not
+    be taken; -1 for `saturating` and `equals`, 0 for `logistic`.
     """
 
     measure: Measure
@@ -65,6 +67,17 @@ class Term(SpecModel):
     center: Written | None = None
     up_to: Written | None = None
     worst: Dimensionless | None = None
+
+    @property
+    def curve(self) -> Literal["saturating", "linear", "logistic"]:
+        """The shape, where none is written `linear` for a direction and `saturating` for all else."""
+        return self.shape or ("linear" if self.goal else "saturating")
+
+    @property
+    def factors(self) -> dict[str, Measure]:
+        """The measures that make up what is judged, by the key they stand under."""
+        found = {"measure": self.measure, "times": self.times, "per": self.per}
+        return {key: measure for key, measure in found.items() if measure is not None}
 
 
 class Condition(SpecModel):
@@ -86,6 +99,23 @@ class Objective(SpecModel):
 
     terms: dict[Name, Term] = {}
     stages: dict[Name, Stage] = {}
+
+    def all_terms(self) -> Iterator[tuple[str, Term]]:
+        """Yield (path within the objective, term) of every term, in authored order."""
+        yield from ((f"terms.{name}", term) for name, term in self.terms.items())
+        for stage, one in self.stages.items():
+            yield from ((f"stages.{stage}.terms.{name}", term) for name, term in one.terms.items())
+
+    def all_conditions(self) -> Iterator[tuple[str, Condition]]:
+        """Yield (path within the objective, condition) of every entrance condition, in authored order."""
+        for stage, one in self.stages.items():
+            yield from ((f"stages.{stage}.enter.{name}", condition) for name, condition in one.enter.items())
+
+    def all_measures(self) -> Iterator[tuple[str, Measure]]:
+        """Yield (path within the objective, measure) of everything that is measured."""
+        for path, term in self.all_terms():
+            yield from ((f"{path}.{key}", measure) for key, measure in term.factors.items())
+        yield from ((f"{path}.measure", condition.measure) for path, condition in self.all_conditions())
 
 
 class EarlyStop(SpecModel):

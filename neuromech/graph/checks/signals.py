@@ -8,7 +8,7 @@ from neuromech.errors import Problem, did_you_mean
 from neuromech.graph.model import ModelGraph
 from neuromech.graph.signals import matching, signals, sizes, split, states
 from neuromech.spec.measure import Measure
-from neuromech.spec.model import Uniform
+from neuromech.spec.model import Experiment, Uniform
 from neuromech.units import Unit
 
 
@@ -23,18 +23,24 @@ def record_matches_nothing(graph: ModelGraph) -> Iterator[Problem]:
                 yield graph.document.problem("no-such-signal", path, "matches no signal", f"'{pattern}'", hint)
 
 
-def claim_on_unrecorded(graph: ModelGraph) -> Iterator[Problem]:
-    """What a claim measures is recorded."""
+def measure_of_unrecorded(graph: ModelGraph) -> Iterator[Problem]:
+    """What a claim or the objective of a study measures is recorded."""
     every, populations = list(signals(graph)), sizes(graph)
     groups = graph.document.experiment.record.values()
     recorded = [name for group in groups for pattern in group.signals for name in matching(pattern, every, populations)]
-    for name, claim in graph.document.experiment.claims.items():
-        for path, pattern in _patterns(claim.measure):
+    for place, measure in _measures(graph.document.experiment):
+        for path, pattern in patterns(measure):
             if not matching(pattern, recorded):
                 hint = "record it" if matching(pattern, every, populations) else _closest(pattern, recorded)
-                path = f"claims.{name}.measure.{path}"
                 message = "matches no recorded signal"
-                yield graph.document.problem("not-recorded", path, message, f"'{pattern}'", hint)
+                yield graph.document.problem("not-recorded", f"{place}.{path}", message, f"'{pattern}'", hint)
+
+
+def _measures(experiment: Experiment) -> Iterator[tuple[str, Measure]]:
+    yield from ((f"claims.{name}.measure", claim.measure) for name, claim in experiment.claims.items())
+    if experiment.study is not None:
+        objective = experiment.study.objective
+        yield from ((f"study.objective.{path}", measure) for path, measure in objective.all_measures())
 
 
 def initial_matches_nothing(graph: ModelGraph) -> Iterator[Problem]:
@@ -75,7 +81,8 @@ def _unit_problems(graph: ModelGraph, path: str, values: tuple[object, ...], uni
             return
 
 
-def _patterns(measure: Measure) -> Iterator[tuple[str, str]]:
+def patterns(measure: Measure) -> Iterator[tuple[str, str]]:
+    """Yield (key, pattern) of the signals that a measure names."""
     for field in ("signal", "reference"):
         pattern = getattr(measure, field)
         if pattern is not None:
