@@ -42,7 +42,7 @@ class RealCodedGaSettings(Settings):
     @model_validator(mode="after")
     def _elites_fit(self) -> Self:
         if self.elites >= self.population:
-            message = "must be fewer elites than the population has individuals"
+            message = "must be fewer than the individuals of the population"
             context = {"message": message, "got": str(self.elites), "hint": None, "key": "elites"}
             raise PydanticCustomError("too-many-elites", "{message}", context)
         return self

@@ -1,0 +1,88 @@
+"""CMA-ES by the library: what we add to it keeps its numbers, its end, its restarts, and its state."""
+
+import sys
+
+import cmaes
+import numpy as np
+import pytest
+
+from neuromech.errors import MissingExtraError
+from neuromech.study.algorithms.cma_es import CmaEs, CmaEsSettings
+from neuromech.study.score import Score
+
+
+def search(dimension=3, start=None, **settings):
+    return CmaEs(CmaEsSettings(**settings), dimension, 1, start)
+
+
+def go(algorithm, judge, generations):
+    for _ in range(generations):
+        algorithm.tell([judge(point) for point in algorithm.ask()])
+
+
+def test_the_distribution_is_updated_as_the_library_does():
+    ours = search(4, np.full(4, 0.4), step=0.2)
+    theirs = cmaes.CMA(np.full(4, 0.4), 0.2, np.tile([0.0, 1.0], (4, 1)), seed=0)
+    for _ in range(40):
+        points = ours.ask()
+        values = [float(np.sum(np.arange(1.0, 5.0) * (point - 0.6) ** 2)) for point in points]
+        theirs.tell(list(zip(points, values, strict=True)))
+        ours.tell([Score(0, -value) for value in values])
+    state = ours.state()["memory"]
+    assert state["mean"] == pytest.approx(theirs.mean, rel=1e-9)
+    assert state["sigma"] == pytest.approx(theirs._sigma, rel=1e-9)
+    assert state["g"] == theirs.generation == 40
+
+
+def test_candidates_begin_around_the_documents_values():
+    points = search(2, np.array([0.3, 0.8]), population=4000, step=0.05).ask()
+    assert points.mean(axis=0) == pytest.approx([0.3, 0.8], abs=5e-3)
+    assert points.std(axis=0) == pytest.approx([0.05, 0.05], abs=3e-3)
+
+
+@pytest.mark.parametrize(("dimension", "expected"), [(1, 4), (10, 10), (100, 17)])
+def test_the_default_population_grows_with_the_logarithm_of_the_dimension(dimension, expected):
+    assert len(search(dimension).ask()) == expected
+
+
+def test_a_generation_of_failures_leaves_the_distribution_as_it_was():
+    one = search()
+    go(one, lambda point: Score(0, float(point.sum())), 3)
+    before, points = one.state()["memory"], one.ask()
+    one.tell([None] * len(points))
+    assert one.state()["memory"] == before
+    assert (one.ask() != points).all()
+
+
+def test_a_search_at_its_end_goes_on_with_sound_numbers():
+    one = search(2)
+    go(one, lambda point: Score(0, -float(np.sum((point - 0.3) ** 2))), 400)
+    assert one.ask() == pytest.approx(np.full((6, 2), 0.3), abs=1e-6)
+    assert np.isfinite(one.state()["memory"]["c_1d"]).all()
+
+
+def test_restarts_double_the_population_where_the_search_has_come_to_an_end():
+    one = search(2, population=5, restarts="ipop")
+    sizes = []
+    for _ in range(60):
+        points = one.ask()
+        sizes.append(len(points))
+        one.tell([Score(0, 0.0)] * len(points))
+    assert sizes == sorted(sizes)
+    assert {5, 10, 20} <= set(sizes)
+    assert one.state()["memory"]["population"] == sizes[-1]
+    resumed = search(2, population=5, restarts="ipop")
+    resumed.restore(one.state())
+    assert np.array_equal(resumed.ask(), one.ask())
+
+
+def test_a_flat_landscape_does_not_restart_where_that_is_not_asked_for():
+    one = search(2, population=5)
+    go(one, lambda _point: Score(0, 0.0), 100)
+    assert len(one.ask()) == 5
+
+
+def test_a_library_that_is_not_installed_is_one_line(monkeypatch):
+    monkeypatch.setitem(sys.modules, "cmaes", None)
+    with pytest.raises(MissingExtraError, match=r"^cmaes is not installed\. Hint: pip install 'neuromech\[study\]'$"):
+        search()
