@@ -1,7 +1,8 @@
 """What can be said about the claims of a document before anything runs."""
 
 from neuromech.analyse.expectations import Expectation, written_unit
-from neuromech.analyse.measures import MeasureKind, measure_kind
+from neuromech.analyse.kinds import RESULT_UNITS, MeasureKind
+from neuromech.analyse.table import measure_kind
 from neuromech.errors import MeasureError, Problem
 from neuromech.spec.document import Document
 from neuromech.spec.model import Claim
@@ -33,4 +34,4 @@ def _unit(claim: Claim, kind: MeasureKind) -> str | None:
         return ""
     if kind.result == "signal":
         return written_unit(claim.expected)
-    return {"time": "s", "number": "", "text": None}[kind.result]
+    return RESULT_UNITS[kind.result]

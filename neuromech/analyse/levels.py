@@ -32,6 +32,16 @@ def span(view: View) -> float:
     return float(np.ptp(view.signal().values))
 
 
+def rms(view: View) -> float:
+    """Return √(mean x²) of the samples of `signal`; unit of the signal."""
+    return root_mean_square(view.signal().values)
+
+
+def standard_deviation(view: View) -> float:
+    """Return √(mean (x − mean x)²) of the samples of `signal`; unit of the signal."""
+    return float(np.std(view.signal().values))
+
+
 def final(view: View) -> float:
     """Return the last sample of `signal`; unit of the signal."""
     return float(view.signal().values[-1])

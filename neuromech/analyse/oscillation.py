@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from neuromech.analyse.contacts import footfalls
 from neuromech.analyse.cycles import NO_RHYTHM, Cycles, bursts, cycles
 from neuromech.analyse.windows import Array, NotMeasurableError, View, Window
 
@@ -24,6 +25,18 @@ def cycles_of(view: View, seen: Window) -> Cycles:
     if view.spec.least_amplitude is not None:
         least = view.argument("least_amplitude", seen.unit)
     return cycles(seen.time, seen.values, least)
+
+
+def reference_cycles(view: View) -> Cycles:
+    """Return the cycles that a measure refers to: strides of the first of its `feet`, or cycles of its `reference`.
+
+    Raises:
+        MeasureError: neither is given, or as for `cycles_of` and `footfalls`.
+        NotMeasurableError: there is no rhythm, or there are too few strides.
+    """
+    if view.spec.feet is not None:
+        return footfalls(view)[0].strides().cycles
+    return cycles_of(view, view.reference())
 
 
 def period(view: View) -> float:
@@ -48,7 +61,8 @@ def rhythm(view: View) -> str:
 def center(view: View) -> float:
     """Return the centre of oscillation: (max + min) / 2 in each cycle, averaged over cycles; unit of the signal.
 
-    Cycles are those of `reference` where one is given, else those of `signal` itself.
+    Cycles are the strides of the first of `feet` or the cycles of `reference` where one is given, else those of
+    `signal` itself.
     """
     found = _extremes_by_cycle(view)
     return float(np.mean(found.centers))
@@ -58,6 +72,11 @@ def amplitude(view: View) -> float:
     """Return half the span from minimum to maximum of each cycle, averaged over cycles; cycles as for `center`."""
     found = _extremes_by_cycle(view)
     return float(np.mean(found.high - found.low) / 2.0)
+
+
+def cycle_range(view: View) -> float:
+    """Return the span from minimum to maximum of each cycle, averaged over cycles; cycles as for `center`."""
+    return 2.0 * amplitude(view)
 
 
 def settling_time(view: View) -> float:
@@ -104,7 +123,8 @@ class _Extremes:
 
 def _extremes_by_cycle(view: View) -> _Extremes:
     seen = view.signal()
-    found = cycles_of(view, seen if view.spec.reference is None else view.reference())
+    alone = view.spec.reference is None and view.spec.feet is None
+    found = cycles_of(view, seen) if alone else reference_cycles(view)
     slices = found.slices(seen.time)
     if len(slices) < len(found.durations):
         raise NotMeasurableError("a cycle holds no sample")

@@ -2,8 +2,9 @@
 
 import numpy as np
 
+from neuromech.analyse.contacts import footfalls
 from neuromech.analyse.cycles import Cycles, onsets
-from neuromech.analyse.oscillation import cycles_of
+from neuromech.analyse.oscillation import cycles_of, reference_cycles
 from neuromech.analyse.windows import Array, NotMeasurableError, View, Window, in_unit
 
 LEAST_LOCKING = 0.8
@@ -18,6 +19,12 @@ _GAITS = {
     "pronk": (0.0, 0.0, 0.0),
 }
 """Phases of RF, LH and RH after LF; Alexander 1984, doi:10.1177/027836498400300205."""
+
+LATERAL_WALK, DIAGONAL_WALK = "lateral-sequence walk", "diagonal-sequence walk"
+GALLOP = "gallop"
+NO_GAIT = "no symmetrical gait"
+
+GAITS = (*_GAITS, LATERAL_WALK, DIAGONAL_WALK, GALLOP, NO_GAIT)
 
 
 def circular_mean(phases: Array) -> float:
@@ -65,34 +72,48 @@ def center_phase(reference: Cycles, seen: Window) -> float:
 
 
 def phase(view: View) -> float:
-    """Return the phase of `signal` in the cycle of `reference`, circular mean over cycles, in 0…1.
+    """Return the phase of `signal` in the cycle of `reference` or the stride of the first of `feet`, in 0…1.
+
+    Circular mean over cycles.
 
     `event` chooses what the phase is about: `onset` (see `onset_phase`) or `center` (see `center_phase`).
     """
-    reference = cycles_of(view, view.reference())
+    reference = reference_cycles(view)
     return (onset_phase if view.spec.event == "onset" else center_phase)(reference, view.signal())
 
 
 def phase_order(view: View) -> str:
-    """Return `signals` in the order of their activity centres after the onset of `reference`: `PFlo < PFsw < PFtd`."""
-    reference = cycles_of(view, view.reference())
+    """Return `signals` in the order of their activity centres after the onset of a cycle: `PFlo < PFsw < PFtd`.
+
+    Cycles are those of `reference`, or the strides of the first of `feet`.
+    """
+    reference = reference_cycles(view)
     seen = view.signals()
     labels = _labels([signal.name for signal in seen])
     found = sorted((center_phase(reference, signal), label) for signal, label in zip(seen, labels, strict=True))
     return " < ".join(label for _, label in found)
 
 
+def interlimb_phase(view: View) -> float:
+    """Return when the second of two `feet` touches down in the stride of the first, circular mean, in 0…1."""
+    return _onset_phases(view)[0]
+
+
 def interlimb_phases(view: View) -> str:
-    """Return the onset phases of the other `signals` after the first, two digits each: `0.50 0.50 0.00`."""
+    """Return the phases of the other `feet` or `signals` after the first, two digits each: `0.50 0.50 0.00`.
+
+    A phase is that of the touchdown of a foot, or of the rise of a signal through half amplitude.
+    """
     return " ".join(f"{round(value, 2) % 1.0:.2f}" for value in _onset_phases(view))
 
 
 def gait(view: View) -> str:
-    """Return the gait of four `signals` in the order left fore, right fore, left hind, right hind.
+    """Return the gait of four `feet` or `signals` in the order left fore, right fore, left hind, right hind.
 
-    `trot`, `pace`, `bound` and `pronk` where all phases are within `tolerance` (0.05 where none is given) of the ideal;
-    `lateral-sequence walk` and `diagonal-sequence walk` where only fore and hind pairs alternate (Hildebrand 1965,
-    doi:10.1126/science.150.3697.701); else `no symmetrical gait`.
+    Phases are those of `interlimb_phases`. `trot`, `pace`, `bound` and `pronk` where all phases are within `tolerance`
+    (0.05 where none is given) of the ideal; `lateral-sequence walk` and `diagonal-sequence walk` where only fore and
+    hind pairs alternate (Hildebrand 1965, doi:10.1126/science.150.3697.701); `gallop` where the limbs of neither pair
+    alternate or move together (Hildebrand 1977, doi:10.2307/1379571); else `no symmetrical gait`.
     """
     phases = _onset_phases(view)
     if len(phases) != 3:
@@ -101,18 +122,24 @@ def gait(view: View) -> str:
     for name, ideal in _GAITS.items():
         if all(circular_distance(p, q) <= tolerance for p, q in zip(phases, ideal, strict=True)):
             return name
-    return _walk(phases, tolerance)
+    return _gait_of_pairs(phases, tolerance)
 
 
-def _walk(phases: list[float], tolerance: float) -> str:
+def _gait_of_pairs(phases: list[float], tolerance: float) -> str:
     right_fore, left_hind, right_hind = phases
-    alternating = circular_distance(right_fore, 0.5) <= tolerance
-    if not alternating or circular_distance(right_hind - left_hind, 0.5) > tolerance:
-        return "no symmetrical gait"
-    return "lateral-sequence walk" if left_hind > 0.5 else "diagonal-sequence walk"
+    lags = circular_distance(right_fore, 0.0), circular_distance(right_hind, left_hind)
+    if all(lag >= 0.5 - tolerance for lag in lags):
+        return LATERAL_WALK if left_hind > 0.5 else DIAGONAL_WALK
+    if all(tolerance < lag < 0.5 - tolerance for lag in lags):
+        return GALLOP
+    return NO_GAIT
 
 
 def _onset_phases(view: View) -> list[float]:
+    if view.spec.feet is not None:
+        leader, *followers = footfalls(view)
+        strides = leader.strides().cycles
+        return [circular_mean(strides.phases(foot.strides().cycles.onsets)[1]) for foot in followers]
     first, *others = view.signals()
     reference = cycles_of(view, first)
     for signal in others:

@@ -95,11 +95,41 @@ class View:
             raise NotMeasurableError(f"{name} is not finite")
         return Window(name, time[chosen], values[chosen], self.recording.unit(name))
 
+    def feet(self) -> tuple[str, ...]:
+        """Return the measure's `feet`."""
+        if self.spec.feet is None:
+            raise MeasureError(f"measure '{self.spec.kind}' needs 'feet'")
+        return self.spec.feet
+
+    def load(self, foot: str) -> tuple[Array, Array]:
+        """Return times (s) and vertical force (N) of a foot, summed over its contacts, shape (n,) each.
+
+        Raises:
+            NotMeasurableError: as for `window`.
+        """
+        names = self._expand(f"{foot}.force_z")
+        limbs = dict.fromkeys(name.rpartition(".")[0].rpartition(".")[0] for name in names)
+        if len(limbs) > 1:
+            raise MeasureError(f"'{foot}' must be the contacts of one foot (got those of {', '.join(limbs)})")
+        first, *others = [self.window(name) for name in names]
+        return first.time, sum((other.at(first.time) for other in others), first.values)
+
+    def coordinate(self, quantity: str) -> str:
+        """Return the name of a signal of the measure's `segment`."""
+        return f"{self._need('segment')}.{quantity}"
+
+    def weight(self) -> float:
+        """Return the weight of the body (N)."""
+        weight = self.recording.provenance.anatomy.weight
+        if weight == 0.0:
+            raise MeasureError(f"measure '{self.spec.kind}' needs a body with weight")
+        return weight
+
     def argument(self, name: Literal["level", "least_amplitude", "tolerance"], unit: str) -> float:
         """Return an argument of the measure as a number of `unit`."""
         return in_unit(self._need(name), unit, name.replace("_", " "))
 
-    def _need(self, name: Literal["signal", "reference", "level", "least_amplitude", "tolerance"]) -> str:
+    def _need(self, name: Literal["signal", "reference", "level", "least_amplitude", "tolerance", "segment"]) -> str:
         value = getattr(self.spec, name)
         if value is None:
             raise MeasureError(f"measure '{self.spec.kind}' needs '{name}'")

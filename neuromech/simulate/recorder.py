@@ -9,6 +9,7 @@ from neuromech.compiler.lower import recorded
 from neuromech.compiler.numerics import Floats, Integers
 from neuromech.compiler.program import Program
 from neuromech.graph.signals import signals, split
+from neuromech.simulate.anatomy import Anatomy
 from neuromech.simulate.recording import GroupData, Outcome, Provenance, Recording
 from neuromech.units import si_unit
 
@@ -53,6 +54,7 @@ class Recorder:
             outcome=outcome,
             simulated_seconds=ticks * self._program.tick,
             wall_seconds=wall_seconds,
+            anatomy=Anatomy.of(self._program.graph),
         )
         return Recording.from_groups(groups, provenance)
 

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from neuromech.errors import RecordingError, did_you_mean
 from neuromech.graph.signals import matching
+from neuromech.simulate.anatomy import NO_BODY, Anatomy
 from neuromech.units import unit_factor
 
 Array = NDArray[np.float64]
@@ -49,6 +50,7 @@ class Provenance:
         outcome: how the run ended.
         simulated_seconds: simulated time (s).
         wall_seconds: time that the run took on the clock (s).
+        anatomy: what measures must know about the body.
     """
 
     name: str
@@ -62,11 +64,12 @@ class Provenance:
     outcome: Outcome
     simulated_seconds: float
     wall_seconds: float
+    anatomy: Anatomy = NO_BODY
 
     def to_attributes(self) -> dict[str, Any]:
         """Return flat attributes of a results file; maps become JSON text."""
         attributes = asdict(self)
-        for key in ("versions", "parameters", "outcome"):
+        for key in ("versions", "parameters", "outcome", "anatomy"):
             attributes[key] = json.dumps(attributes[key], ensure_ascii=False)
         return attributes
 
@@ -90,6 +93,7 @@ class Provenance:
             outcome=Outcome(**json.loads(attributes["outcome"])),
             simulated_seconds=float(attributes["simulated_seconds"]),
             wall_seconds=float(attributes["wall_seconds"]),
+            anatomy=Anatomy(**json.loads(attributes["anatomy"])),
         )
 
 
@@ -128,9 +132,10 @@ class GroupData:
 
 @dataclass(frozen=True, slots=True)
 class _Column:
-    group: str
-    variable: str
+    time: Array
+    values: Array
     index: int
+    unit: str
     step: float
 
 
@@ -183,9 +188,7 @@ class Recording:
             RecordingError: the signal was not recorded.
         """
         column = self._column(name)
-        group = self.tree.children[column.group].to_dataset()
-        values = group[column.variable].values[:, column.index]
-        return np.asarray(group["time"].values), np.ascontiguousarray(values)
+        return column.time, np.ascontiguousarray(column.values[:, column.index])
 
     def unit(self, name: str) -> str:
         """Return the unit of a signal, empty for a number.
@@ -193,8 +196,7 @@ class Recording:
         Raises:
             RecordingError: the signal was not recorded.
         """
-        column = self._column(name)
-        return str(self.tree.children[column.group].data_vars[column.variable].attrs["units"])
+        return self._column(name).unit
 
     def _column(self, name: str) -> _Column:
         if name not in self._columns:
@@ -240,12 +242,14 @@ def _word(unit: str) -> str:
 def _index(tree: xr.DataTree) -> dict[str, _Column]:
     """Return where each signal is; the recorded order of a group is in its attribute `signals`."""
     found: dict[str, _Column] = {}
-    for group, node in tree.children.items():
+    for node in tree.children.values():
         data = node.to_dataset()
-        time = data["time"].values
+        time = np.asarray(data["time"].values)
         step = float((time[-1] - time[0]) / (len(time) - 1)) if len(time) > 1 else np.inf
         columns = {
-            f"{element}.{variable.attrs['quantity']}": _Column(group, str(name), index, step)
+            f"{element}.{variable.attrs['quantity']}": _Column(
+                time, variable.values, index, str(variable.attrs["units"]), step
+            )
             for name, variable in data.data_vars.items()
             for index, element in enumerate(data[f"{name}_element"].values)
         }

@@ -2,6 +2,8 @@
 
 from typing import Annotated, Literal
 
+from pydantic import Field
+
 from neuromech.components.base import SpecModel
 from neuromech.spec.scalars import PositiveTime, Written
 from neuromech.units import TIME, Quantity, quantity
@@ -21,7 +23,9 @@ class Measure(SpecModel):
     """A measure of `neuromech.analyse` and its arguments.
 
     `after` and `until` bound the part of the run that is looked at. `level`, `least_amplitude` and `tolerance` are in
-    units of the signal; `event` says which instant of a cycle a phase is about.
+    units of the signal; `event` says which instant of a cycle a phase is about. Each of `feet` is a pattern of contacts
+    that make up one foot, `segment` the segment whose way is measured, along `axis` of the world. Contacts and gaps
+    between contacts that are shorter than `least_duration` do not count.
     """
 
     kind: str
@@ -34,3 +38,7 @@ class Measure(SpecModel):
     least_amplitude: Written | None = None
     tolerance: Written | None = None
     event: Literal["onset", "center"] = "onset"
+    feet: Annotated[tuple[str, ...] | None, Field(min_length=1)] = None
+    segment: str | None = None
+    axis: Literal["x", "y", "z"] = "x"
+    least_duration: PositiveTime | None = None

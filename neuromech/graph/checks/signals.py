@@ -89,6 +89,10 @@ def patterns(measure: Measure) -> Iterator[tuple[str, str]]:
             yield field, pattern
     for index, pattern in enumerate(measure.signals or ()):
         yield f"signals.{index}", pattern
+    for index, foot in enumerate(measure.feet or ()):
+        yield f"feet.{index}", f"{foot}.force_z"
+    if measure.segment is not None:
+        yield "segment", f"{measure.segment}.*"
 
 
 def _closest(pattern: str, names: Iterable[str]) -> str:

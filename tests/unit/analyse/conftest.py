@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from neuromech.simulate.anatomy import NO_BODY
 from neuromech.simulate.recording import GroupData, Outcome, Provenance, Recording
 
 STEP = 0.5e-3
@@ -17,12 +18,12 @@ def time():
 def record(time):
     """Make a recording from {name: values} or {name: (values, unit)}."""
 
-    def make(signals, outcome=None, time=time):
+    def make(signals, outcome=None, time=time, anatomy=NO_BODY):
         pairs = [pair if isinstance(pair, tuple) else (pair, "") for pair in signals.values()]
         values = np.column_stack([values for values, _ in pairs])
         units = tuple(unit for _, unit in pairs)
         ended = outcome or Outcome("finished", float(time[-1]))
-        origin = Provenance("synthetic", "", "0", {}, "none", "any", 0, {}, ended, ended.time, 1.0)
+        origin = Provenance("synthetic", "", "0", {}, "none", "any", 0, {}, ended, ended.time, 1.0, anatomy)
         return Recording.from_groups({"all": GroupData(time, tuple(signals), values, units)}, origin)
 
     return make

@@ -23,6 +23,13 @@ def test_values_of_a_ramp(record, time, kind, value):
     assert found == MeasuredValue(pytest.approx(value, abs=1e-12), "N")
 
 
+def test_rms_and_standard_deviation_of_a_shifted_sine(record, time):
+    recording = record({"trunk.roll": (0.3 + 0.2 * np.sin(2 * np.pi * time), "rad")})
+    spec = {"signal": "trunk.roll", "until": "4.9995 s"}
+    assert take(recording, kind="rms", **spec) == MeasuredValue(pytest.approx(np.sqrt(0.09 + 0.02)), "rad")
+    assert take(recording, kind="standard_deviation", **spec).value == pytest.approx(0.2 / np.sqrt(2.0))
+
+
 def test_the_mean_weighs_by_time_and_not_by_samples(record):
     time = np.concatenate((np.arange(0.0, 1.0, 0.001), [2.0]))
     found = take(record({"M.force": (np.minimum(time, 1.0), "N")}, time=time), kind="mean", signal="M.force")
@@ -53,7 +60,7 @@ def test_fraction_of_the_cycle(record, time, burst):
     assert found == MeasuredValue(pytest.approx(0.27, abs=1e-3), "")
     half = take(recording, kind="fraction_active", signal="F.activity", level=0.2)
     assert half.value == pytest.approx(0.27 * 2.0 / 3.0, abs=1e-4)
-    with pytest.raises(MeasureError, match="needs 'level'"):
+    with pytest.raises(MeasureError, match="needs either 'level' or 'reference'"):
         take(recording, kind="fraction_active", signal="F.activity")
 
 

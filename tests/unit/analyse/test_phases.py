@@ -78,7 +78,10 @@ def test_order_names_the_leg_where_legs_differ(record, burst):
         ((0.23, 0.73, 0.0, 0.5), "lateral-sequence walk"),
         ((0.17, 0.66, 0.0, 0.5), "lateral-sequence walk"),
         ((0.0, 0.5, 0.25, 0.75), "diagonal-sequence walk"),
-        ((0.0, 0.2, 0.5, 0.7), "no symmetrical gait"),
+        ((0.0, 0.2, 0.5, 0.7), "gallop"),
+        ((0.0, 0.9, 0.5, 0.6), "gallop"),
+        ((0.0, 0.5, 0.5, 0.7), "no symmetrical gait"),
+        ((0.0, 0.2, 0.5, 0.5), "no symmetrical gait"),
     ],
 )
 def test_gaits(record, burst, phases, name):

@@ -1,0 +1,57 @@
+"""Measures of a body's way through the world."""
+
+import numpy as np
+
+from neuromech.analyse.windows import NotMeasurableError, View
+
+
+def time_alive(view: View) -> float:
+    """Return how long the run went on (s): from `after` to its end, or to `until`; zero where it ended before `after`.
+
+    Also of a run that ended early.
+    """
+    end = view.recording.outcome.time
+    until = end if view.spec.until is None else min(end, float(view.spec.until))
+    return max(0.0, until - float(view.spec.after))
+
+
+def distance(view: View) -> float:
+    """Return how far `segment` moved along `axis` of the world, last minus first sample (m); backwards is negative.
+
+    Also of a run that ended early, up to its end.
+    """
+    seen = view.window(view.coordinate(view.spec.axis))
+    return float(seen.values[-1] - seen.values[0])
+
+
+def speed(view: View) -> float:
+    """Return the mean speed of `segment` along `axis` of the world, `distance` over time (m/s); backwards is negative.
+
+    Also of a run that ended early, up to its end.
+    """
+    seen = view.window(view.coordinate(view.spec.axis))
+    return float((seen.values[-1] - seen.values[0]) / (seen.time[-1] - seen.time[0]))
+
+
+def travel_direction(view: View) -> float:
+    """Return the direction of the way of `segment` from first to last sample, atan2(Δy, Δx) in −π…π (rad).
+
+    Zero is along the x axis of the world, positive to its left.
+    """
+    x, y = (view.window(view.coordinate(axis)).values for axis in ("x", "y"))
+    forward, sideways = float(x[-1] - x[0]), float(y[-1] - y[0])
+    if forward == 0.0 and sideways == 0.0:
+        raise NotMeasurableError(f"{view.spec.segment} does not move")
+    return float(np.arctan2(sideways, forward))
+
+
+def heading_drift(view: View) -> float:
+    """Return how much the yaw of `segment` changes over the window (rad), positive to the left.
+
+    The slope of the least-squares line through the unwrapped yaw, times the duration of the window, so that the
+    yaw within a cycle hardly counts.
+    """
+    seen = view.window(view.coordinate("yaw"))
+    yaw = np.unwrap(seen.values)
+    time = seen.time - seen.time.mean()
+    return float(time @ (yaw - yaw.mean()) / (time @ time) * (seen.time[-1] - seen.time[0]))

@@ -1,0 +1,107 @@
+"""The measures that a claim or a study may name."""
+
+import math
+from collections.abc import Mapping
+from types import MappingProxyType
+from typing import get_args
+
+from neuromech.analyse.cycles import NO_RHYTHM
+from neuromech.analyse.kinds import MeasureKind
+from neuromech.analyse.levels import (
+    correlation,
+    final,
+    fraction_active,
+    held,
+    maximum,
+    mean,
+    minimum,
+    outcome,
+    rms,
+    rms_difference,
+    silence,
+    span,
+    standard_deviation,
+)
+from neuromech.analyse.locomotion import distance, heading_drift, speed, time_alive, travel_direction
+from neuromech.analyse.oscillation import (
+    amplitude,
+    burst_duration,
+    center,
+    cycle_range,
+    period,
+    rhythm,
+    settling_time,
+)
+from neuromech.analyse.phases import GAITS, gait, interlimb_phase, interlimb_phases, phase, phase_order
+from neuromech.analyse.strides import cycle_duration, duty_factor, stance_duration, swing_duration, touchdowns
+from neuromech.errors import MeasureError, did_you_mean
+from neuromech.simulate.recording import OutcomeKind
+from neuromech.spec.measure import Measure
+
+_CYCLE = ("reference or feet", "least_amplitude")
+
+_VALUES = {
+    "mean": MeasureKind(mean, "signal", ("signal",)),
+    "minimum": MeasureKind(minimum, "signal", ("signal",)),
+    "maximum": MeasureKind(maximum, "signal", ("signal",)),
+    "range": MeasureKind(span, "signal", ("signal",), least=0.0),
+    "rms": MeasureKind(rms, "signal", ("signal",), least=0.0),
+    "standard_deviation": MeasureKind(standard_deviation, "signal", ("signal",), least=0.0),
+    "final": MeasureKind(final, "signal", ("signal",)),
+    "silence": MeasureKind(silence, "signal", ("signals",)),
+    "held": MeasureKind(held, "text", ("signal", "level"), words=("held", "released")),
+    "rms_difference": MeasureKind(rms_difference, "signal", ("signal", "reference"), least=0.0),
+    "correlation": MeasureKind(correlation, "number", ("signal", "reference"), least=-1.0, most=1.0),
+}
+
+_RHYTHM = {
+    "period": MeasureKind(period, "time", ("signal",), ("least_amplitude",), least=0.0),
+    "rhythm": MeasureKind(rhythm, "text", ("signal",), ("least_amplitude",), words=("rhythm", NO_RHYTHM)),
+    "center": MeasureKind(center, "signal", ("signal",), _CYCLE),
+    "amplitude": MeasureKind(amplitude, "signal", ("signal",), _CYCLE, least=0.0),
+    "cycle_range": MeasureKind(cycle_range, "signal", ("signal",), _CYCLE, least=0.0),
+    "settling_time": MeasureKind(settling_time, "time", ("signal", "tolerance"), _CYCLE, least=0.0),
+    "burst_duration": MeasureKind(burst_duration, "time", ("signal", "level"), least=0.0),
+    "fraction_active": MeasureKind(
+        fraction_active, "number", ("signal", "level or reference"), ("least_amplitude",), least=0.0, most=1.0
+    ),
+    "phase": MeasureKind(
+        phase, "number", ("signal", "reference or feet"), ("event", "least_amplitude"), least=0.0, most=1.0
+    ),
+    "phase_order": MeasureKind(phase_order, "text", ("signals", "reference or feet"), ("least_amplitude",)),
+}
+
+_WAY = {
+    "outcome": MeasureKind(outcome, "text", of_early_end=True, words=get_args(OutcomeKind)),
+    "time_alive": MeasureKind(time_alive, "time", of_early_end=True, least=0.0),
+    "distance": MeasureKind(distance, "length", ("segment",), ("axis",), of_early_end=True),
+    "speed": MeasureKind(speed, "speed", ("segment",), ("axis",), of_early_end=True),
+    "travel_direction": MeasureKind(travel_direction, "angle", ("segment",), least=-math.pi, most=math.pi),
+    "heading_drift": MeasureKind(heading_drift, "angle", ("segment",)),
+}
+
+_STRIDES = {
+    "touchdowns": MeasureKind(touchdowns, "number", ("feet",), of_early_end=True, least=0.0),
+    "cycle_duration": MeasureKind(cycle_duration, "time", ("feet",), least=0.0),
+    "stance_duration": MeasureKind(stance_duration, "time", ("feet",), least=0.0),
+    "swing_duration": MeasureKind(swing_duration, "time", ("feet",), least=0.0),
+    "duty_factor": MeasureKind(duty_factor, "number", ("feet",), least=0.0, most=1.0),
+    "interlimb_phase": MeasureKind(interlimb_phase, "number", ("feet",), feet=2, least=0.0, most=1.0),
+    "interlimb_phases": MeasureKind(interlimb_phases, "text", ("signals or feet",), ("least_amplitude",)),
+    "gait": MeasureKind(gait, "text", ("signals or feet",), ("tolerance", "least_amplitude"), feet=4, words=GAITS),
+}
+
+MEASURES: Mapping[str, MeasureKind] = MappingProxyType(_WAY | _STRIDES | _RHYTHM | _VALUES)
+
+
+def measure_kind(spec: Measure) -> MeasureKind:
+    """Return the kind that a measure names.
+
+    Raises:
+        MeasureError: there is no such kind, an argument is missing, or one means nothing to the kind.
+    """
+    if spec.kind not in MEASURES:
+        raise MeasureError(f"'{spec.kind}' is not a measure. Hint: {did_you_mean(spec.kind, MEASURES)}")
+    kind = MEASURES[spec.kind]
+    kind.check(spec)
+    return kind

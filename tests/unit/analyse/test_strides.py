@@ -1,0 +1,152 @@
+"""Strides of feet whose touchdowns and liftoffs are known."""
+
+import numpy as np
+import pytest
+
+from neuromech.analyse.contacts import footfalls
+from neuromech.analyse.measures import MeasuredValue, measure
+from neuromech.analyse.phases import circular_distance
+from neuromech.analyse.windows import View
+from neuromech.errors import MeasureError
+from neuromech.simulate.anatomy import Anatomy
+from neuromech.simulate.recording import Outcome
+from neuromech.spec.measure import Measure
+
+PERIOD, DUTY, PEAK, LEVEL = 0.457, 0.62, 30.0, 1.5
+LEGS = ("LF", "RF", "LH", "RH")
+CAT = Anatomy(6.0, 9.81, {})
+
+
+def take(recording, **spec):
+    return measure(recording, Measure.model_validate(spec))
+
+
+def edges(level=LEVEL, duty=DUTY):
+    """Phases at which the half sine rises through the level and falls through half of it."""
+    return duty * np.arcsin(level / PEAK) / np.pi, duty * (1.0 - np.arcsin(level / 2.0 / PEAK) / np.pi)
+
+
+@pytest.fixture
+def feet(record, burst):
+    """Four feet that are loaded for a part of each cycle, from given phases on."""
+
+    def make(phases=(0.0, 0.5, 0.5, 0.0), duty=DUTY, **more):
+        signals = {
+            f"{leg}.foot.force_z": (burst(PERIOD, phase, duty, PEAK), "N")
+            for leg, phase in zip(LEGS, phases, strict=True)
+        }
+        return record(signals, **more)
+
+    return make
+
+
+def of(*legs):
+    return {"feet": [f"{leg}.foot" for leg in legs], "level": f"{LEVEL} N"}
+
+
+def test_durations_of_strides(feet):
+    rise, fall = edges()
+    recording = feet()
+    for kind, expected in (
+        ("cycle_duration", PERIOD),
+        ("stance_duration", (fall - rise) * PERIOD),
+        ("swing_duration", (1.0 - fall + rise) * PERIOD),
+    ):
+        assert take(recording, kind=kind, **of("LF")) == MeasuredValue(pytest.approx(expected, abs=2e-5), "s")
+    assert take(recording, kind="duty_factor", **of(*LEGS)) == MeasuredValue(pytest.approx(fall - rise, abs=5e-5), "")
+
+
+def test_duty_factor_is_averaged_over_feet(record, burst):
+    recording = record(
+        {
+            "LF.foot.force_z": (burst(PERIOD, 0.0, 0.6, PEAK), "N"),
+            "RF.foot.force_z": (burst(PERIOD, 0.5, 0.7, PEAK), "N"),
+        }
+    )
+    rise, fall = np.mean([edges(duty=duty) for duty in (0.6, 0.7)], axis=0)
+    assert take(recording, kind="duty_factor", **of("LF", "RF")).value == pytest.approx(fall - rise, abs=1e-4)
+
+
+def test_a_foot_is_loaded_from_two_percent_of_body_weight_on_where_no_level_is_given(feet):
+    rise, fall = edges(level=0.02 * CAT.weight)
+    found = take(feet(anatomy=CAT), kind="duty_factor", feet=["LF.foot"])
+    assert found.value == pytest.approx(fall - rise, abs=5e-5)
+    with pytest.raises(MeasureError, match="needs a body with weight"):
+        take(feet(), kind="duty_factor", feet=["LF.foot"])
+
+
+def test_chatter_of_a_contact_does_not_count(feet, record, burst, time):
+    load = burst(PERIOD, 0.0, DUTY, PEAK)
+    phase = (time / PERIOD) % 1.0
+    load[(phase > 0.2) & (phase < 0.2 + 0.015 / PERIOD)] = 0.0  # a gap of 15 ms in stance
+    load[(phase > 0.8) & (phase < 0.8 + 0.015 / PERIOD)] = PEAK  # a scuff of 15 ms in swing
+    chattering = record({"LF.foot.force_z": (load, "N")})
+    expected = take(feet(), kind="duty_factor", **of("LF")).value
+    assert take(chattering, kind="duty_factor", **of("LF")).value == pytest.approx(expected, abs=1e-9)
+    short = take(chattering, kind="cycle_duration", least_duration="1 ms", **of("LF")).value
+    assert short < 0.9 * PERIOD
+
+
+def test_a_load_between_half_the_level_and_the_level_keeps_what_it_was(record, time):
+    load = np.where(time < 1.0, 0.0, np.where(time < 2.0, 1.2, np.where(time < 3.0, 3.0, 1.2)))
+    recording = record({"LF.foot.force_z": (load, "N")})
+    (found,) = footfalls(View(recording, Measure.model_validate({"kind": "touchdowns", **of("LF")})))
+    assert found.contacts == pytest.approx(np.array([[2.0, 5.0]]), abs=1e-3)
+    assert list(found.loaded(np.array([0.5, 1.5, 2.5, 4.9]))) == [False, False, True, True]
+
+
+def test_heel_and_toe_are_one_foot(record, burst):
+    heel, toe = burst(PERIOD, 0.0, 0.4, PEAK), burst(PERIOD, 0.2, 0.4, PEAK)
+    recording = record({"L.heel.force_z": (heel, "N"), "L.toe.force_z": (toe, "N")})
+    found = take(recording, kind="duty_factor", feet=["L.*"], level="1.5 N").value
+    rise, fall = edges(duty=0.4)
+    assert found == pytest.approx(0.2 + fall - rise, abs=2e-4)
+
+
+def test_feet_of_two_limbs_are_not_one_foot(feet):
+    with pytest.raises(MeasureError, match=r"'\*.foot' must be the contacts of one foot \(got those of LF, RF, LH, RH"):
+        take(feet(), kind="duty_factor", feet=["*.foot"], level="1 N")
+
+
+def test_touchdowns_are_counted_also_of_a_run_that_fell(feet):
+    phases = (0.1, 0.5, 0.5, 0.0)
+    for leg, count in {"LF": 11.0, "LH": 10.0}.items():  # in 10.28 cycles
+        assert take(feet(phases), kind="touchdowns", until="4.7 s", **of(leg)) == MeasuredValue(count, "")
+    fell = feet(phases, outcome=Outcome("fell", 5.0, ""))
+    assert take(fell, kind="touchdowns", **of("LF", "LH")).value == 22.0
+
+
+def test_a_foot_that_stands_or_hangs_makes_no_strides(record, time, burst):
+    steps = burst(PERIOD, 0.0, DUTY, PEAK)
+    signals = {"A.foot": 0.0 * time, "B.foot": 0.0 * time + PEAK, "C.foot": np.where(time < 3.0, steps, PEAK)}
+    recording = record({f"{name}.force_z": (load, "N") for name, load in signals.items()})
+    assert take(recording, kind="duty_factor", **of("A")).value == "A.foot makes fewer than 3 strides"
+    assert take(recording, kind="duty_factor", **of("B")).value == "B.foot makes fewer than 3 strides"
+    assert take(recording, kind="duty_factor", **of("C")).value == "C.foot stops stepping"
+
+
+def test_gait_and_phases_of_feet(feet):
+    walk = feet((0.17, 0.66, 0.0, 0.5))
+    assert take(walk, kind="gait", **of(*LEGS)).value == "lateral-sequence walk"
+    assert take(feet(), kind="gait", **of(*LEGS)).value == "trot"
+    assert take(walk, kind="interlimb_phases", **of(*LEGS)).value == "0.49 0.83 0.33"
+    phase = take(walk, kind="interlimb_phase", **of("LH", "LF"))
+    assert circular_distance(phase.value, 0.17) < 1e-4
+    assert phase.unit == ""
+
+
+def test_cycles_of_feet_serve_other_measures(record, burst, time):
+    turn = 2 * np.pi * time / PERIOD
+    recording = record(
+        {
+            "LF.foot.force_z": (burst(PERIOD, 0.0, DUTY, PEAK), "N"),
+            "LF.hip.angle": (0.3 + 0.2 * np.sin(turn) + 0.01 * np.sin(7 * turn), "rad"),
+            "LF.RG-F.activity": burst(PERIOD, 0.6, 0.2),
+        }
+    )
+    hip = {"signal": "LF.hip.angle", **of("LF")}
+    assert take(recording, kind="center", **hip).value == pytest.approx(0.3, abs=1e-3)
+    span = np.ptp(recording.signal("LF.hip.angle")[1])
+    assert take(recording, kind="cycle_range", **hip) == MeasuredValue(pytest.approx(span, abs=1e-4), "rad")
+    found = take(recording, kind="phase", event="center", signal="LF.RG-F.activity", **of("LF")).value
+    assert circular_distance(found, 0.7 - edges()[0]) < 1e-4
