@@ -5,6 +5,7 @@
     ├── RunError             exit code 3: the run ended early (fell, diverged)
     ├── RecordingError       exit code 2: a results file, or a signal asked of it, is not there
     ├── MeasureError         exit code 2: a measure or an expectation does not fit the signals it is about
+    ├── StudyError           exit code 2: a study cannot be begun, found or continued
     └── MissingExtraError    exit code 2: an optional dependency is not installed
 
 Anything else that escapes is a bug, and ends with exit code 1.
@@ -86,6 +87,12 @@ class RecordingError(NeuromechError):
 
 class MeasureError(NeuromechError):
     """A measure or an expectation does not fit: unknown kind, missing argument, clash of units."""
+
+    exit_code: ClassVar[int] = 2
+
+
+class StudyError(NeuromechError):
+    """A study cannot be begun, found or continued: its storage, its executor, or a changed document."""
 
     exit_code: ClassVar[int] = 2
 

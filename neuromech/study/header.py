@@ -1,0 +1,110 @@
+"""What a study is: written when it begins, compared when it is continued."""
+
+import hashlib
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass
+from importlib.metadata import version
+from typing import Any, Self
+
+from neuromech.errors import DocumentError
+from neuromech.graph.declare import body_file
+from neuromech.graph.diff import ABSENT, Change
+from neuromech.spec.document import Document
+from neuromech.spec.node import ScalarNode
+from neuromech.spec.positions import Positions
+from neuromech.spec.reader import parse
+from neuromech.study.space import Space
+
+PACKAGES = ("neuromech", "numpy", "scipy", "numba", "pybullet")
+_FREE = ("name", "description", "references", "claims", "study.evaluations")
+_FREE_OF_PARAMETERS = ("description", "source")
+
+
+@dataclass(frozen=True, slots=True)
+class Header:
+    """What a study is.
+
+    Args:
+        document: name of the document.
+        file: the file that the study was begun with.
+        specification: the resolved document as YAML.
+        body: SHA-256 of the file that the body comes from, None without one.
+        seed: of the study.
+        units: tuned parameter -> the unit that its values are written in.
+        stages: names of the stages of the objective, none where it is a plain sum.
+        versions: package -> version that the study was begun with.
+    """
+
+    document: str
+    file: str
+    specification: str
+    body: str | None
+    seed: int
+    units: Mapping[str, str]
+    stages: tuple[str, ...]
+    versions: Mapping[str, str]
+
+    @classmethod
+    def of(cls, document: Document) -> Self:
+        """Return the header of the study of a document.
+
+        Raises:
+            OSError: the file of the body cannot be read.
+            ValueError: the document has no study.
+        """
+        study = document.experiment.study
+        if study is None:
+            raise ValueError("a document without a study has no header of one")
+        body = body_file(document)
+        return cls(
+            document=document.experiment.name,
+            file=str(document.file),
+            specification=document.text,
+            body=None if body is None else hashlib.sha256(body.read_bytes()).hexdigest(),
+            seed=study.seed,
+            units={dimension.name: dimension.unit for dimension in Space.of(document).dimensions},
+            stages=tuple(study.objective.stages),
+            versions={package: version(package) for package in PACKAGES},
+        )
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return plain values for JSON."""
+        return asdict(self)
+
+    @classmethod
+    def from_dict(cls, values: Mapping[str, Any]) -> Self:
+        """Read back what `to_dict` gave."""
+        return cls(**{**values, "stages": tuple(values["stages"])})
+
+    def changes(self, now: Self) -> list[Change]:
+        """Return what a study that goes on would do differently from this one, by path.
+
+        Names, descriptions, references, claims and the number of evaluations are free to change.
+        """
+        old, new = _values(self.specification), _values(now.specification)
+        paths = sorted({**old, **new})
+        found = [Change(path, old.get(path, ABSENT), new.get(path, ABSENT)) for path in paths]
+        if self.body != now.body:
+            found.append(Change("content of body.file", str(self.body)[:12], str(now.body)[:12]))
+        return [change for change in found if change.old != change.new]
+
+    def newer_versions(self, now: Self) -> list[Change]:
+        """Return the packages that are another version now; numbers may differ in their last bits."""
+        pairs = ((name, self.versions.get(name, ABSENT), one) for name, one in now.versions.items())
+        return [Change(name, old, new) for name, old, new in pairs if old != new]
+
+
+def _values(specification: str) -> dict[str, str]:
+    """Return path -> text of every single value of a resolved document that a study depends on."""
+    try:
+        nodes = Positions.of(parse(specification.encode(), "stored document")).nodes
+    except DocumentError as error:
+        raise ValueError(f"a resolved document cannot be read: {error}") from error
+    return {path: node.text for path, node in nodes.items() if isinstance(node, ScalarNode) and not _is_free(path)}
+
+
+def _is_free(path: str) -> bool:
+    first, _, rest = path.partition(".")
+    if first == "parameters":
+        return rest.rpartition(".")[2] in _FREE_OF_PARAMETERS
+    return any(path == free or path.startswith(f"{free}.") for free in _FREE)

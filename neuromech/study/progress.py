@@ -1,0 +1,113 @@
+"""How far a search is: what a terminal shows while it runs."""
+
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+
+from neuromech.study.evaluation import Evaluation
+from neuromech.study.score import Score
+
+
+@dataclass(frozen=True, slots=True)
+class Standing:
+    """How far a search is.
+
+    Args:
+        generation: the one that is evaluated, from 0.
+        done: how many evaluations are complete, those of earlier sessions included.
+        total: how many there will be.
+        best: the best score so far, None before the first one.
+        median: median score of the latest complete generation, failed candidates counting as worst; None where half of
+            them failed, or before there is one.
+        crashed: how many candidates crashed or diverged.
+        fallen: how many fell.
+        rate: evaluations per second in this session (1/s), 0 before the first one.
+        real_time_factor: simulated seconds per second on the clock in this session.
+        remaining: seconds until the end at this rate; None before the first evaluation of this session.
+    """
+
+    generation: int
+    done: int
+    total: int
+    best: Score | None
+    median: Score | None
+    crashed: int
+    fallen: int
+    rate: float
+    real_time_factor: float
+    remaining: float | None
+
+
+Report = Callable[[Standing], None]
+
+
+@dataclass
+class Tally:
+    """Counts what is done; makes a `Standing` of it.
+
+    Args:
+        total: how many evaluations there will be.
+        clock: seconds, from any start.
+    """
+
+    total: int
+    clock: Callable[[], float] = time.monotonic
+    generation: int = 0
+    best: Score | None = None
+    median: Score | None = None
+    done: int = 0
+    crashed: int = 0
+    fallen: int = 0
+    _started: float = field(init=False)
+    _session: int = 0
+    _simulated: float = 0.0
+
+    def __post_init__(self) -> None:
+        self._started = self.clock()
+
+    def add(self, evaluation: Evaluation, fresh: bool = True) -> None:
+        """Count an evaluation; one that is not fresh was stored by an earlier session."""
+        self.done += 1
+        self.crashed += evaluation.score is None
+        self.fallen += evaluation.fell
+        self.best = best(self.best, evaluation.score)
+        if fresh:
+            self._session += 1
+            self._simulated += evaluation.simulated_seconds
+
+    def end_generation(self, scores: Sequence[Score | None]) -> None:
+        """Take note that a generation is complete."""
+        self.generation += 1
+        self.median = median(scores)
+
+    def standing(self) -> Standing:
+        """Return how far the search is now."""
+        seconds = max(self.clock() - self._started, 1e-9)
+        rate = self._session / seconds
+        return Standing(
+            generation=self.generation,
+            done=self.done,
+            total=self.total,
+            best=self.best,
+            median=self.median,
+            crashed=self.crashed,
+            fallen=self.fallen,
+            rate=rate,
+            real_time_factor=self._simulated / seconds,
+            remaining=(self.total - self.done) / rate if rate else None,
+        )
+
+
+def best(one: Score | None, other: Score | None) -> Score | None:
+    """Return the better of two scores; a failed one is worse than any."""
+    if one is None or other is None:
+        return other if one is None else one
+    return max(one, other)
+
+
+def median(scores: Sequence[Score | None]) -> Score | None:
+    """Return the lower median of scores, failed ones counting as worst; None where that is a failed one."""
+    ordered = sorted(score for score in scores if score is not None)
+    failed = len(scores) - len(ordered)
+    position = (len(scores) - 1) // 2 - failed
+    return ordered[position] if scores and position >= 0 else None
