@@ -119,7 +119,7 @@ def failures_are_survived(make: Maker) -> None:
 
 
 def failing_places_are_left(make: Maker, count: int = 40) -> None:
-    """Where the score rises towards a wall and candidates beyond it fail, later generations do not all lie beyond it."""
+    """Where the score rises towards a wall and candidates beyond fail, later generations do not all lie beyond it."""
 
     def wall(points: Floats) -> list[Score | None]:
         return [None if point[0] > 0.6 else Score(0, float(point[0])) for point in points]
