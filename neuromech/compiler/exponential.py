@@ -70,6 +70,30 @@ def exp(x: float) -> float:
     return q * float(_from_bits((_bits(shifted) + _EXPONENT_BIAS) << _EXPONENT_BITS))
 
 
+# exp(x) − 1 = 2ⁿ (exp(r) − 1) + (2ⁿ − 1): for small x n is zero, and nothing cancels.
+@numba.njit(nogil=True, error_model="numpy", fastmath={"contract"}, forceinline=True)
+def expm1(x: float) -> float:
+    """Return e to the power of x, minus one."""
+    cut = min(max(x, -_LARGEST), _LARGEST)
+    shifted = cut * _LOG2_E + _ROUNDER
+    n = shifted - _ROUNDER
+    r = (cut - n * _LN2_HIGH) - n * _LN2_LOW
+    q = 1.0 / 479001600.0
+    q = q * r + 1.0 / 39916800.0
+    q = q * r + 1.0 / 3628800.0
+    q = q * r + 1.0 / 362880.0
+    q = q * r + 1.0 / 40320.0
+    q = q * r + 1.0 / 5040.0
+    q = q * r + 1.0 / 720.0
+    q = q * r + 1.0 / 120.0
+    q = q * r + 1.0 / 24.0
+    q = q * r + 1.0 / 6.0
+    q = q * r + 0.5
+    q = q * r + 1.0
+    power = float(_from_bits((_bits(shifted) + _EXPONENT_BIAS) << _EXPONENT_BITS))
+    return power * (q * r) + (power - 1.0)
+
+
 @numba.njit(nogil=True, error_model="numpy", fastmath={"contract"}, forceinline=True)
 def log(x: float) -> float:
     """Return the natural logarithm of x; not a number for a negative x, and −708 or less for zero."""

@@ -164,10 +164,10 @@ def recorded(patterns: Iterable[str], graph: ModelGraph) -> list[str]:
 
 def _fixed_step(graph: ModelGraph, has_delays: bool) -> FixedStep:
     method = graph.document.experiment.solver.method
-    if method == "rk4" or method == "exponential_euler":
+    if method == "rk4" or method == "exponential_euler" or method == "rush_larsen":
         return method
     if has_delays:
-        hint = "use rk4 or exponential_euler, or remove the delays"
+        hint = "use rk4, rush_larsen or exponential_euler, or remove the delays"
         message = "an adaptive solver cannot run a network with delays"
         raise DocumentError([graph.document.problem("delay-solver", "solver.method", message, method, hint)])
     return "rk4"

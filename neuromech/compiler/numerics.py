@@ -8,7 +8,7 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
-from neuromech.compiler.exponential import cosh, exp, log
+from neuromech.compiler.exponential import cosh, exp, expm1, log
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -80,9 +80,8 @@ def weighted_sum_at(weights: Floats, signals: Floats, places: Places) -> float:
 def relaxed(value: float, drive: float, rate: float, dt: float) -> float:
     """Return x(t + dt) of dx/dt = drive − rate x with both held: the exact solution, also where rate is zero."""
     exponent = rate * dt
-    if abs(exponent) < 1e-8:
-        return value + dt * (drive - rate * value)
-    return value - (drive / rate - value) * float(np.expm1(-exponent))
+    held = dt if abs(exponent) < 1e-8 else -expm1(-exponent) / rate
+    return value + held * (drive - rate * value)
 
 
 @equation

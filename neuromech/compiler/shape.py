@@ -7,7 +7,7 @@ from typing import Any, Literal
 
 from neuromech.components.base import Component
 
-FixedStep = Literal["rk4", "exponential_euler"]
+FixedStep = Literal["rk4", "exponential_euler", "rush_larsen"]
 
 # Offsets and counts at the front of the integer buffer, by name; the generated code reads them from there.
 COMMON = (

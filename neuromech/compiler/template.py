@@ -299,7 +299,32 @@ def network_step(step, dt, x, s, u, p, F, I):
         x[k] = relaxed(x[k], drive[k], rate[k], dt)
 '''
 
-STEPPERS = {"rk4": RK4, "exponential_euler": EXPONENTIAL_EULER}
+RUSH_LARSEN = '''
+@equation
+def network_step(step, dt, x, s, u, p, F, I):
+    """Advance the network by one step of the second-order Rush–Larsen method: one evaluation.
+
+    Drive and rate of the step's middle, on the line through those of this step and of the last, are held.
+    """
+    n = <states>
+    k0 = <stages>
+    drive = F[k0 : k0 + n]
+    rate = F[k0 + n : k0 + 2 * n]
+    last_drive = F[k0 + 2 * n : k0 + 3 * n]
+    last_rate = F[k0 + 3 * n : k0 + 4 * n]
+    stage(x, s, u, p, F, I, drive, rate, step, 0.0)
+    if <delays>:
+        remember(step, s, F, I)
+    ahead = 0.5 if step > 0 else 0.0
+    for k in range(n):
+        middle_drive = drive[k] + ahead * (drive[k] - last_drive[k])
+        middle_rate = rate[k] + ahead * (rate[k] - last_rate[k])
+        last_drive[k] = drive[k]
+        last_rate[k] = rate[k]
+        x[k] = relaxed(x[k], middle_drive, middle_rate, dt)
+'''
+
+STEPPERS = {"rk4": RK4, "exponential_euler": EXPONENTIAL_EULER, "rush_larsen": RUSH_LARSEN}
 
 NO_BODY = '''
 @compiled
@@ -356,24 +381,42 @@ def kinematics(s, F, I, T, D):
 def mechanics(x, s, u, p, F, I, T, D):
     """Muscle lengths, velocities and moment arms, then forces and sensors."""
     kinematics(s, F, I, T, D)
-    n, body, arms = <joints>, <body>, <arms>
-    for k in range(<muscles>):
-        first, last = I[<path_first> + k], I[<path_first> + k + 1]
-        if I[<path_kind> + k] == 0:
-            length = p[<path_length> + k]
-            for h in range(first, last):
-                arm = p[<path_arm> + h]
-                F[arms + h] = arm
-                length -= arm * (s[body + I[<path_joint> + h]] - p[<path_reference> + h])
-            s[<length_signal> + k] = length
-        else:
-            joint = I[<path_joint> + first : <path_joint> + last]
-            s[<length_signal> + k] = lines_length(k, p, I, T, D, joint, F[arms + first : arms + last])
-        speed = 0.0
-        for h in range(first, last):
-            speed -= F[arms + h] * s[body + n + I[<path_joint> + h]]
-        s[<velocity_signal> + k] = speed
+    muscle_paths(s, p, F, I, T, D)
     evaluate_mechanics(x, s, u, p, F, I)
+
+
+@equation
+def muscle_paths(s, p, F, I, T, D):
+    """Muscle lengths, velocities and moment arms; as if all arms were constant first, then the other paths."""
+    n, m, body = <joints>, <muscles>, <body>
+    first = I[<path_first> : <path_first> + m + 1]
+    total = first[m]
+    joint = I[<path_joint> : <path_joint> + total]
+    straight = I[<path_kind> : <path_kind> + m]
+    angle = s[body : body + n]
+    velocity = s[body + n : body + 2 * n]
+    length = s[<length_signal> : <length_signal> + m]
+    speed = s[<velocity_signal> : <velocity_signal> + m]
+    constant = p[<path_arm> : <path_arm> + total]
+    reference = p[<path_reference> : <path_reference> + total]
+    reference_length = p[<path_length> : <path_length> + m]
+    arms = F[<arms> : <arms> + total]
+    for h in range(total):
+        arms[h] = constant[h]
+    for k in range(m):
+        some = reference_length[k]
+        for h in range(first[k], first[k + 1]):
+            some -= constant[h] * (angle[joint[h]] - reference[h])
+        length[k] = some
+    for k in range(m):
+        if straight[k]:
+            a, b = first[k], first[k + 1]
+            length[k] = lines_length(k, p, I, T, D, joint[a:b], arms[a:b])
+    for k in range(m):
+        some = 0.0
+        for h in range(first[k], first[k + 1]):
+            some -= arms[h] * velocity[joint[h]]
+        speed[k] = some
 
 
 @equation

@@ -234,7 +234,7 @@ class Instance(Scope):
 class Solver(SpecModel):
     """Numerical method of the network and the coupling with the body."""
 
-    method: Literal["rk4", "exponential_euler", "lsoda", "radau", "dop853"] = "rk4"
+    method: Literal["rk4", "exponential_euler", "rush_larsen", "lsoda", "radau", "dop853"] = "rk4"
     step: PositiveTime = quantity("0.5 ms")
     body_step: PositiveTime = quantity("1 ms")
     coupling: Literal["observer_implicit", "explicit"] = "observer_implicit"

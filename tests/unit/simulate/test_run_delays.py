@@ -7,7 +7,7 @@ from relays import DELAYS, relays
 from neuromech.errors import DocumentError
 from neuromech.pipeline import run
 
-METHODS = ["rk4", "exponential_euler"]
+METHODS = ["rk4", "exponential_euler", "rush_larsen"]
 
 
 @pytest.mark.parametrize("method", METHODS)

@@ -22,7 +22,7 @@ def expected_drive(time):
     return np.where(time >= 0.045 - 1e-12, 0.1, ramp)
 
 
-@pytest.mark.parametrize("method", ["rk4", "exponential_euler"])
+@pytest.mark.parametrize("method", ["rk4", "exponential_euler", "rush_larsen"])
 def test_a_drive_follows_its_ramps_and_events(document, method):
     recording = run(document(with_protocol(relays(method), ramps=RAMP, events=JUMP)))
     time, signal = recording.signal("go.signal")
