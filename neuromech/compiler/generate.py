@@ -13,6 +13,9 @@ from neuromech.compiler.shape import (
 )
 from neuromech.compiler.template import BODY, GATHER, GATHER_SLOTS, NETWORK, NO_BODY, ROWS, STEPPERS, TEAM_GATHER
 
+# Arguments of `advance` that are no state, input or parameter.
+_OF_STEP = {"duration": "dt", "longest_step": "p[<muscle_step>]"}
+
 
 def generate(shape: Shape) -> str:
     """Return the source of the step module for a shape.
@@ -32,6 +35,8 @@ def generate(shape: Shape) -> str:
         _dispatch("evaluate_mechanics", shape, with_body=True),
         _inputs(shape),
         _flows(shape),
+        _advances(shape),
+        _arrivals(shape),
         NETWORK,
         STEPPERS[shape.method],
         BODY if shape.has_body else NO_BODY,
@@ -47,6 +52,7 @@ def _fill(text: str, shape: Shape) -> str:
         "delays": shape.has_delays,
         "shared weights": shape.has_shared_weights,
         "relays": relays,
+        "memory": any(kind.cls.advance for kind in shape.kinds if not evaluated_with_body(kind.cls)),
     }
     for name, flag in flags.items():
         text = text.replace(f"<{name}>", str(flag))
@@ -75,7 +81,7 @@ def _imports(shape: Shape) -> str:
         "from neuromech.compiler.kinematics import segment_velocities, world_axis",
         "from neuromech.compiler.numerics import compiled, elementwise, equation, interpolate, relaxed",
         "from neuromech.compiler.numerics import sum_at, weighted_sum_at",
-        "from neuromech.compiler.paths import straight_path",
+        "from neuromech.compiler.paths import LEVER_ARMS, STRAIGHT_LINES, lever, straight_path",
         "from neuromech.compiler.team import DONE, FIRST, HELPERS, LAST, NEXT, ORDER, PART, STOP",
         "from neuromech.compiler.team import add, load, rest_now_and_then, store",
         *sorted({f"from {kind.cls.__module__} import {kind.cls.__qualname__}" for kind in shape.kinds}),
@@ -88,7 +94,7 @@ def _equations(kind: KindShape) -> str:
     lines = [f"# {kind.name}: {cls.source}"]
     lines += [
         f"{kind.name}_{part} = elementwise({cls.__qualname__}.{part})"
-        for part in ("output", "flow")
+        for part in ("output", "flow", "advance")
         if getattr(cls, part)
     ]
     return "\n".join(lines)
@@ -125,15 +131,25 @@ def _locals(kind: KindShape, function: Callable[..., Any], part: str) -> Iterato
         if name in kind.cls.model_fields:
             yield f"{name} = p[{f'<{kind.name}.{name}>' if name in kind.uniform else _block(kind, name, 0)}]"
     if part == "output":
-        yield from (f"{port.name}_out = s[{_block(kind, 'outputs', k)}]" for k, port in enumerate(kind.cls.outputs))
+        yield from (f"{name}_out = s[{_block(kind, 'outputs', k)}]" for name, k in _outputs_of(kind, part))
+    elif part == "advance":
+        yield from (f"next_{name} = F[{_block(kind, 'states', k, '<advanced> + ')}]" for name, k in states)
+        yield from (f"{name}_out = s[{_block(kind, 'outputs', k)}]" for name, k in _outputs_of(kind, part))
     else:
         for name, k in states:
             yield from (f"{target}_of_{name} = {target}[{_block(kind, 'states', k)}]" for target in ("drive", "rate"))
 
 
-def _block(kind: KindShape, section: str, k: int) -> str:
-    """Return the slice of the k-th block of `count` numbers of a section."""
-    start = f"<{kind.name}.{section}>"
+def _outputs_of(kind: KindShape, part: str) -> list[tuple[str, int]]:
+    """Return (name, position) of the outputs that `output` gives, or of those that `advance` does."""
+    named = [(port.name, k) for k, port in enumerate(kind.cls.outputs)]
+    own = len(named) - kind.cls.advanced_outputs
+    return named[own:] if part == "advance" else named[:own]
+
+
+def _block(kind: KindShape, section: str, k: int, base: str = "") -> str:
+    """Return the slice of the k-th block of `count` numbers of a section, counted from the offset `base`."""
+    start = f"{base}<{kind.name}.{section}>"
     first = start + ("" if k == 0 else " + count" if k == 1 else f" + {k} * count")
     return f"{first} : {start} + " + ("count" if k == 0 else f"{k + 1} * count")
 
@@ -143,11 +159,14 @@ def _call(kind: KindShape, function: Callable[..., Any], part: str) -> Iterator[
     if part == "flow":
         names = [f"{target}_of_{state.name}[i]" for state in kind.cls.states for target in ("drive", "rate")]
     else:
-        names = [f"{port.name}_out[i]" for port in kind.cls.outputs]
+        names = [f"next_{state.name}[i]" for state in kind.cls.states] if part == "advance" else []
+        names += [f"{name}_out[i]" for name, _ in _outputs_of(kind, part)]
     yield f"{', '.join(names)} = {kind.name}_{part}({arguments})"
 
 
 def _argument(kind: KindShape, name: str) -> str:
+    if name in _OF_STEP:
+        return _OF_STEP[name]
     own = {*(state.name for state in kind.cls.states), *(port.name for port in kind.cls.inputs)}
     if name not in own and name not in kind.cls.model_fields:
         raise TypeError(f"{kind.cls.__qualname__}: '{name}' is no state, input port or parameter")
@@ -216,4 +235,26 @@ def _flows(shape: Shape) -> str:
     for kind in shape.kinds:
         if kind.cls.flow:
             lines += _loop(kind, kind.cls.flow, "flow")
+    return "\n".join([*lines, "    return"] if len(lines) == 3 else lines)
+
+
+def _advances(shape: Shape) -> str:
+    lines = [
+        "@equation",
+        "def advance_states(dt, x, s, u, p, F, I):",
+        '    """States that components advance themselves: what they are after the step waits in F."""',
+    ]
+    for kind in shape.kinds:
+        if kind.cls.advance:
+            lines.append(f"    {_gather_all(kind, shape)}")
+            lines += _loop(kind, kind.cls.advance, "advance")
+    return "\n".join([*lines, "    return"] if len(lines) == 3 else lines)
+
+
+def _arrivals(shape: Shape) -> str:
+    lines = ["@equation", "def take_advanced(x, F, I):", '    """Give these states their new values."""']
+    for kind in shape.kinds:
+        if kind.cls.advance:
+            first, count = f"<{kind.name}.states>", f"{len(kind.cls.states)} * <{kind.name}.count>"
+            lines += [f"    for k in range({first}, {first} + {count}):", "        x[k] = F[<advanced> + k]"]
     return "\n".join([*lines, "    return"] if len(lines) == 3 else lines)

@@ -15,11 +15,11 @@ from neuromech.compiler.lower_body import (
     joint_parameters,
     muscle_signals,
     muscles,
-    paths,
     structure,
 )
 from neuromech.compiler.lower_components import Block, blocks, parameters, place
 from neuromech.compiler.lower_connections import connections, evaluation_order
+from neuromech.compiler.lower_paths import paths
 from neuromech.compiler.numerics import Floats
 from neuromech.compiler.program import Program
 from neuromech.compiler.shape import COMMON, FixedStep, Shape
@@ -60,6 +60,8 @@ def lower(graph: ModelGraph) -> Program:
     timeline(graph.document, layout, integers, floats)
     work.add("base", layout.input_count)
     work.add("stages", _STAGE_ARRAYS * layout.state_count)
+    work.add("advanced", layout.state_count)
+    floats.add("muscle_step", [float(solver.muscle_step)])
     header["explicit"] = int(solver.coupling == "explicit")
     substeps = header["substeps"] = round(float(solver.body_step) / float(solver.step)) if tree else 1
     _record_sections(graph, layout, integers, float(solver.body_step if tree else solver.step))
@@ -67,7 +69,7 @@ def lower(graph: ModelGraph) -> Program:
     threads = _threads(solver.threads, connected.synapses)
     shape = Shape(
         tuple(part.shape for part in parts),
-        _fixed_step(graph, connected.has_delays),
+        _fixed_step(graph, parts, connected.has_delays),
         has_body=tree is not None,
         has_delays=connected.has_delays,
         has_shared_weights=connected.has_shared_weights,
@@ -162,7 +164,7 @@ def recorded(patterns: Iterable[str], graph: ModelGraph) -> list[str]:
     return sorted(names, key=lambda name: quantities[name.rpartition(".")[2]])
 
 
-def _fixed_step(graph: ModelGraph, has_delays: bool) -> FixedStep:
+def _fixed_step(graph: ModelGraph, parts: Iterable[Block], has_delays: bool) -> FixedStep:
     method = graph.document.experiment.solver.method
     if method == "rk4" or method == "exponential_euler" or method == "rush_larsen":
         return method
@@ -170,6 +172,10 @@ def _fixed_step(graph: ModelGraph, has_delays: bool) -> FixedStep:
         hint = "use rk4, rush_larsen or exponential_euler, or remove the delays"
         message = "an adaptive solver cannot run a network with delays"
         raise DocumentError([graph.document.problem("delay-solver", "solver.method", message, method, hint)])
+    if graph.body is None and any(part.shape.cls.advance for part in parts):
+        message = "an adaptive solver cannot run units that remember from step to step"
+        hint = "use rk4 or exponential_euler"
+        raise DocumentError([graph.document.problem("memory-solver", "solver.method", message, method, hint)])
     return "rk4"
 
 

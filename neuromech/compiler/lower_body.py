@@ -1,17 +1,16 @@
-"""Body, muscle paths and their signals → sections of the buffers, and the tree for the kinematics."""
+"""Body and its signals → sections of the buffers, and the tree for the kinematics."""
 
 from collections.abc import Iterable
 
 import numpy as np
 
-from neuromech.compiler.buffers import Buffer, Reserve
+from neuromech.compiler.buffers import Buffer
 from neuromech.compiler.layout import Layout
 from neuromech.compiler.lower_components import follow
 from neuromech.compiler.numerics import Integers
-from neuromech.compiler.tree import FIXED_ROOT, SLIDE, Tree
-from neuromech.components.muscles import ConstantMomentArms, StraightLines
+from neuromech.compiler.tree import SLIDE, Tree
+from neuromech.components.base import Muscle
 from neuromech.graph.model import BodyModel, Element, ModelGraph
-from neuromech.units import Quantity
 
 SEGMENT_SIGNALS = ("x", "y", "z", "roll", "pitch", "yaw", "velocity_x", "velocity_y", "velocity_z")
 _ROOT_STATE = 13
@@ -64,7 +63,11 @@ def muscle_signals(elements: list[Element], layout: Layout, header: dict[str, in
 
 def force_slots(elements: list[Element], layout: Layout, integers: Buffer) -> None:
     """Note where force, stiffness and damping of each muscle are found."""
-    for output in ("force", "stiffness", "damping"):
+    forces = [
+        f"{element.name}.{element.spec.applied_force}" for element in elements if isinstance(element.spec, Muscle)
+    ]
+    integers.add("force_slot", [layout.signals[name] for name in forces])
+    for output in ("stiffness", "damping"):
         integers.add(f"{output}_slot", [layout.signals[f"{element.name}.{output}"] for element in elements])
 
 
@@ -76,90 +79,6 @@ def joint_parameters(graph: ModelGraph, body: BodyModel, layout: Layout, floats:
             follow(layout, getattr(joint, field), start + i, f"{graph.element(name).path}.{field}")
 
 
-def paths(
-    elements: list[Element],
-    tree: Tree,
-    graph: ModelGraph,
-    layout: Layout,
-    integers: Buffer,
-    floats: Buffer,
-    work: Reserve,
-) -> int:
-    """Write joints, arms and points of every muscle path; return the largest number of points of one path."""
-    crossed = [_crossed(element, tree, graph) for element in elements]
-    specs = [_path(element) for element in elements]
-    integers.add("path_first", _starts(len(joints) for joints in crossed))
-    integers.add("path_joint", [tree.joints.index(joint) for joints in crossed for joint in joints])
-    integers.add("path_kind", [int(isinstance(path, StraightLines)) for path in specs])
-    _constant_paths(elements, specs, crossed, layout, floats)
-    points = [path.points if isinstance(path, StraightLines) else () for path in specs]
-    integers.add("path_point_first", _starts(len(some) for some in points))
-    integers.add("path_segment", [tree.segments.index(point.segment) for some in points for point in some])
-    start = floats.add("path_point", [x for some in points for point in some for x in point.position])
-    for element, some in zip(elements, points, strict=True):
-        for i, point in enumerate(some):
-            for k, x in enumerate(point.position):
-                follow(layout, x, start, f"{element.path}.path.points.{i}.position.{k}")
-                start += 1
-    work.add("arms", sum(len(joints) for joints in crossed))
-    integers.add("coupled", _first_coupled(tree, crossed))
-    return max((len(some) for some in points), default=0)
-
-
-def _first_coupled(tree: Tree, crossed: list[list[str]]) -> list[int]:
-    """Return for each joint the first joint whose acceleration or damping it can feel, itself at the latest.
-
-    Under a fixed root these are the joints of its own limb; a root that moves, and a muscle, couple what they join.
-    """
-    n = len(tree.joints)
-    moved = _moved(tree)
-    coupled = (moved @ moved.T > 0) if tree.root == FIXED_ROOT else np.ones((n, n), dtype=bool)
-    for joints in crossed:
-        places = [tree.joints.index(joint) for joint in joints]
-        coupled[np.ix_(places, places)] = True
-    return [min(j, int(np.argmax(coupled[j]))) for j in range(n)]
-
-
-def _path(element: Element) -> ConstantMomentArms | StraightLines:
-    path = getattr(element.spec, "path", None)
-    if not isinstance(path, ConstantMomentArms | StraightLines):
-        raise TypeError(f"muscle '{element.name}' has no path of a kind that can be lowered")
-    return path
-
-
-def _crossed(element: Element, tree: Tree, graph: ModelGraph) -> list[str]:
-    joints = {joint for _, joint, c in graph.graph.out_edges(element.name, data="connection") if c.kind == "crossing"}
-    return [joint for joint in tree.joints if joint in joints]
-
-
-def _starts(counts: Iterable[int]) -> list[int]:
-    return [0, *np.cumsum([*counts], dtype=int).tolist()]
-
-
-def _constant_paths(
-    elements: list[Element],
-    specs: list[ConstantMomentArms | StraightLines],
-    crossed: list[list[str]],
-    layout: Layout,
-    floats: Buffer,
-) -> None:
-    zero = Quantity(0.0)
-    lengths = [path.reference_length if isinstance(path, ConstantMomentArms) else zero for path in specs]
-    start = floats.add("path_length", lengths)
-    for i, (element, value) in enumerate(zip(elements, lengths, strict=True)):
-        follow(layout, value, start + i, f"{element.path}.path.reference_length")
-    for section, field in (("path_arm", "moment_arms"), ("path_reference", "reference_angles")):
-        values = [
-            (element, joint, getattr(path, field, {}).get(joint, zero))
-            for element, path, joints in zip(elements, specs, crossed, strict=True)
-            for joint in joints
-        ]
-        start = floats.add(section, [value for _, _, value in values])
-        for i, (element, joint, value) in enumerate(values):
-            written = joint.removeprefix(f"{element.scope}.")
-            follow(layout, value, start + i, f"{element.path}.path.{field}.{written}")
-
-
 def structure(tree: Tree, integers: Buffer) -> None:
     """Write which joint moves which segment, the child of each joint, and which joints slide."""
     n = len(tree.joints)
@@ -167,15 +86,15 @@ def structure(tree: Tree, integers: Buffer) -> None:
     for row in range(1, len(tree.segments)):
         child[tree.joint[row]] = row
         slide[tree.joint[row]] = int(tree.kind[row] == SLIDE)
-    integers.add("moved", _moved(tree).ravel().tolist())
+    integers.add("moved", moved(tree).ravel().tolist())
     integers.add("child", child.tolist())
     integers.add("slide", slide.tolist())
 
 
-def _moved(tree: Tree) -> Integers:
+def moved(tree: Tree) -> Integers:
     """Return (joints, segments): 1 where a joint moves a segment."""
-    moved = np.zeros((len(tree.joints), len(tree.segments)), dtype=np.int64)
+    found = np.zeros((len(tree.joints), len(tree.segments)), dtype=np.int64)
     for row in range(1, len(tree.segments)):
-        moved[:, row] = moved[:, tree.parent[row]]
-        moved[tree.joint[row], row] = 1
-    return moved
+        found[:, row] = found[:, tree.parent[row]]
+        found[tree.joint[row], row] = 1
+    return found

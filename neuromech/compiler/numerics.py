@@ -31,9 +31,14 @@ def equation(function: Callable[..., Any]) -> Any:
 def elementwise(function: Callable[..., Any]) -> Any:
     """Compile an equation of a component so that a loop can evaluate it for several elements at once.
 
-    The equation's own `exp`, `cosh` and `log` are exchanged for those of `neuromech.compiler.exponential`.
+    The equation's own `exp`, `cosh` and `log` are exchanged for those of `neuromech.compiler.exponential`, and the
+    functions of its module that it calls are compiled in the same way.
     """
     names = {**function.__globals__, "exp": exp, "cosh": cosh, "log": log}
+    for name in function.__code__.co_names:
+        helper = names.get(name)
+        if isinstance(helper, FunctionType) and helper.__module__ == function.__module__:
+            names[name] = elementwise(helper)
     own = FunctionType(function.__code__, names, function.__name__, function.__defaults__)
     return numba.njit(nogil=True, error_model="numpy", fastmath=_FAST_MATH, forceinline=True)(own)
 

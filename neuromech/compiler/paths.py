@@ -1,8 +1,34 @@
 """Lengths, velocities and moment arms of muscle paths from the joint angles."""
 
+from math import cos, sin, sqrt
+
 import numpy as np
 
 from neuromech.compiler.numerics import Floats, Integers, equation
+
+CONSTANT_ARMS, STRAIGHT_LINES, LEVER_ARMS = range(3)
+CONSTANT, COSINE, GEOMETRIC = range(3)
+
+
+@equation
+def lever(form: int, radius: float, angle: float, reference: float, peak: float) -> tuple[float, float]:
+    """Return the lever arm (m) at an angle, and its integral (m) from the reference angle on; Dzeladini 2013 eq. 2.18–23.
+
+    Args:
+        form: `CONSTANT`, `COSINE` or `GEOMETRIC`.
+        radius: largest lever arm, m.
+        angle: rad.
+        reference: rad.
+        peak: angle of the largest lever arm, rad.
+    """
+    if form == CONSTANT:
+        return radius, radius * (angle - reference)
+    if form == COSINE:
+        return radius * cos(angle - peak), radius * (sin(angle - peak) - sin(reference - peak))
+    a = cos(peak)
+    now = sqrt(1.0 + a * a - 2.0 * a * cos(angle))
+    then = sqrt(1.0 + a * a - 2.0 * a * cos(reference))
+    return radius * sin(angle) / now, 2.0 * radius * (cos(reference) - cos(angle)) / (now + then)
 
 
 @equation

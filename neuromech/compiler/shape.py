@@ -23,6 +23,7 @@ COMMON = (
     "path_point", "path_point_first", "path_segment", "moved", "length_signal", "velocity_signal",
     "force_slot", "stiffness_slot", "damping_slot", "damping", "joint_stiffness", "rest_angle", "arms", "work",
     "last_velocity", "last_torque", "explicit", "child", "slide", "root", "coupled", "inputs_recorded",
+    "path_factor", "path_form", "path_peak", "path_zero", "advanced", "muscle_step",
     "slot_tables", "slot_order", "slot_source", "slot_weights", "slot_sums",
 )  # fmt: skip
 
@@ -78,7 +79,8 @@ def argument_names(function: Callable[..., Any]) -> tuple[str, ...]:
 
 def parameter_names(cls: type[Component]) -> tuple[str, ...]:
     """Return the parameters that the equations of a class use, in field order."""
-    used = {name for function in (cls.output, cls.flow) if function for name in argument_names(function)}
+    functions = (cls.output, cls.flow, cls.advance)
+    used = {name for function in functions if function for name in argument_names(function)}
     return tuple(name for name in cls.model_fields if name in used)
 
 

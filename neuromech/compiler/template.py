@@ -339,8 +339,16 @@ def run(first, last, dt, x, s, u, p, F, I, R):
             if <inputs_recorded>:
                 network_inputs(s, u, p, F, I)
             record(step, x, s, u, I, R)
+        if <memory>:
+            apply_protocol(step * dt, p, I)
+            if <delays>:
+                delayed_inputs(step, 0.0, p, F, I)
+            network_outputs(x, s, u, p, F, I)
+            advance_states(dt, x, s, u, p, F, I)
         apply_protocol((step + 0.5) * dt, p, I)
         network_step(step, dt, x, s, u, p, F, I)
+        if <memory>:
+            take_advanced(x, F, I)
         bad = first_bad(x)
         if bad >= 0:
             return step + 1, bad
@@ -392,7 +400,8 @@ def muscle_paths(s, p, F, I, T, D):
     first = I[<path_first> : <path_first> + m + 1]
     total = first[m]
     joint = I[<path_joint> : <path_joint> + total]
-    straight = I[<path_kind> : <path_kind> + m]
+    kind = I[<path_kind> : <path_kind> + m]
+    factor = p[<path_factor> : <path_factor> + m]
     angle = s[body : body + n]
     velocity = s[body + n : body + 2 * n]
     length = s[<length_signal> : <length_signal> + m]
@@ -409,14 +418,29 @@ def muscle_paths(s, p, F, I, T, D):
             some -= constant[h] * (angle[joint[h]] - reference[h])
         length[k] = some
     for k in range(m):
-        if straight[k]:
-            a, b = first[k], first[k + 1]
+        a, b = first[k], first[k + 1]
+        if kind[k] == STRAIGHT_LINES:
             length[k] = lines_length(k, p, I, T, D, joint[a:b], arms[a:b])
+        elif kind[k] == LEVER_ARMS:
+            some = 0.0
+            for h in range(a, b):
+                turned = angle[joint[h]] + p[<path_zero> + h]
+                arms[h], way = lever(I[<path_form> + h], constant[h], turned, reference[h], p[<path_peak> + h])
+                some += way
+            length[k] = reference_length[k] - factor[k] * some
     for k in range(m):
         some = 0.0
         for h in range(first[k], first[k + 1]):
             some -= arms[h] * velocity[joint[h]]
-        speed[k] = some
+        speed[k] = factor[k] * some
+
+
+@compiled
+def lengths_now(s, p, F, I, T, D):
+    """Fill the lengths of all muscles from the body's state in s."""
+    apply_protocol(0.0, p, I)
+    kinematics(s, F, I, T, D)
+    muscle_paths(s, p, F, I, T, D)
 
 
 @equation
@@ -455,7 +479,7 @@ def torques(dt, x, s, u, p, F, I, T, D):
     arms = F[<arms> : <arms> + first[m]]
     for k in range(m):
         force[k] = s[I[<force_slot> + k]]
-        slope[k] = max(0.0, s[I[<damping_slot> + k]] + dt * s[I[<stiffness_slot> + k]])
+        slope[k] = p[<path_factor> + k] * max(0.0, s[I[<damping_slot> + k]] + dt * s[I[<stiffness_slot> + k]])
     for j in range(n):
         d, k = p[<damping> + j], p[<joint_stiffness> + j]
         torque[j] = -k * (s[body + j] - p[<rest_angle> + j]) - d * velocity[j]
@@ -508,8 +532,10 @@ def tick(number, dt, x, s, u, p, F, I, R, T, D):
             fill_history(s, F, I)
     if <inputs_recorded>:
         network_inputs(s, u, p, F, I)
+    advance_states(dt, x, s, u, p, F, I)
     torques(dt, x, s, u, p, F, I, T, D)
     record(number, x, s, u, I, R)
+    take_advanced(x, F, I)
     return first_bad(s[<torque> : <torque> + <joints>])
 
 

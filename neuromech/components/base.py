@@ -2,7 +2,7 @@
 
 Equations are plain static functions of numbers. The names of their arguments say what they need: a state, an input
 port, or a parameter of the class; the compiler looks them up by name and hands the functions to numba. They may use
-`math` and other such functions, nothing else.
+`math` and functions of their own module that do the same, nothing else.
 """
 
 from collections.abc import Callable
@@ -75,6 +75,17 @@ class Component(SpecModel):
     flow: ClassVar[Callable[..., Any] | None] = None
     """For each state, in order, the pair (drive, rate) of `dx/dt = drive - rate * x`, flattened to one tuple."""
 
+    advance: ClassVar[Callable[..., Any] | None] = None
+    """For states that no differential equation of the network moves: their values one body step later, in order.
+
+    Evaluated once per body step (per network step where there is no body), with the inputs of its start. Two more
+    arguments have a meaning: `duration`, of the step in s, and `longest_step`, the solver's `muscle_step` in s. What a
+    component gives besides its states are the last of its `outputs`, which `output` then leaves out.
+    """
+
+    advanced_outputs: ClassVar[int] = 0
+    """How many of the last outputs `advance` gives. They hold for the coming step."""
+
     @classmethod
     def kind_name(cls) -> str:
         """Return the word that a document uses for this class."""
@@ -124,6 +135,17 @@ class Muscle(Component):
     """Pulls along its path. Its outputs include `force`, `stiffness` (dF/dl) and `damping` (dF/dv)."""
 
     family: ClassVar[Family] = "muscle"
+    applied_force: ClassVar[str] = "force"
+    """The output (N) that acts on the joints during a body step."""
+
+    def states_at_rest(self, length: float) -> dict[str, float]:
+        """Return the states at time zero that depend on the length of the path (m); a muscle without such has none.
+
+        Raises:
+            ValueError: there is no such state; the text is a whole message.
+        """
+        del length
+        return {}
 
 
 class Synapse(Component):

@@ -6,8 +6,10 @@ from types import MappingProxyType
 from typing import Self
 
 from neuromech.components.base import Component, Family
-from neuromech.components.muscles import BrownMuscle, ConstantMomentArms, StraightLines
+from neuromech.components.muscle_tendon import MuscleTendonUnit
+from neuromech.components.muscles import BrownMuscle
 from neuromech.components.neurons import RateNeuron, RybakInterneuron, RybakNeuron, StaticNeuron
+from neuromech.components.paths import ConstantMomentArms, LeverArms, StraightLines
 from neuromech.components.sensors import JointSensor, LegLoadSensor, LinkSensor, MuscleSpindle, StretchSensor
 from neuromech.components.synapses import (
     DescendingDrive,
@@ -28,8 +30,10 @@ BUILT_IN: tuple[type[Component], ...] = (
     InhibitorySynapse,
     InterlimbSynapse,
     BrownMuscle,
+    MuscleTendonUnit,
     ConstantMomentArms,
     StraightLines,
+    LeverArms,
     StretchSensor,
     MuscleSpindle,
     LegLoadSensor,

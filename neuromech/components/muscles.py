@@ -1,39 +1,11 @@
-"""Muscles and the ways that they take over joints."""
+"""Muscles whose force follows from activity, length and velocity of the whole muscle."""
 
 from math import exp, log
 from typing import Annotated, ClassVar, Literal
 
-from pydantic import Field
-
-from neuromech.components.base import Muscle, Path, Port, Reference, SpecModel
-from neuromech.units import DIMENSIONLESS, FORCE, LENGTH, Angle, Length, Quantity, quantity
-
-
-class ConstantMomentArms(Path):
-    """Length changes linearly with joint angle: l = l_ref − Σ r_j (q_j − q_ref,j)."""
-
-    kind: Literal["constant_moment_arms"] = "constant_moment_arms"
-    source: ClassVar[str] = "An et al. 1984, doi:10.1115/1.3138499 (moment arm r = −dl/dq)"
-
-    reference_length: Annotated[Quantity, LENGTH.positive]
-    reference_angles: dict[str, Angle] = Field(min_length=1)
-    moment_arms: dict[str, Length] = Field(min_length=1)
-
-
-class PathPoint(SpecModel):
-    """A point that a muscle passes, fixed in a segment."""
-
-    segment: str
-    position: tuple[Length, Length, Length]
-
-
-class StraightLines(Path):
-    """Straight lines from origin over via points to insertion; moment arms follow from the geometry."""
-
-    kind: Literal["straight_lines"] = "straight_lines"
-    source: ClassVar[str] = "Delp & Loan 1995, doi:10.1016/0010-4825(95)98882-E"
-
-    points: tuple[PathPoint, ...] = Field(min_length=2)
+from neuromech.components.base import Muscle, Port, Reference
+from neuromech.components.paths import MusclePath
+from neuromech.units import DIMENSIONLESS, FORCE, LENGTH, Quantity, quantity
 
 
 class BrownMuscle(Muscle):
@@ -63,7 +35,7 @@ class BrownMuscle(Muscle):
     motoneuron: Annotated[str, Reference("neuron", (("activity", "activation"),))]
     flexor: Annotated[str, Reference("neuron", (("activity", "flexor_activity"),))]
     extensor: Annotated[str, Reference("neuron", (("activity", "extensor_activity"),))]
-    path: ConstantMomentArms | StraightLines = Field(discriminator="kind")
+    path: MusclePath
 
     maximal_force: Annotated[Quantity, FORCE.positive]
     optimal_length: Annotated[Quantity, LENGTH.positive]

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from itertools import pairwise
 
 from neuromech.components.base import Component
-from neuromech.components.muscles import ConstantMomentArms, StraightLines
+from neuromech.components.paths import ConstantMomentArms, LeverArms, StraightLines
 from neuromech.graph.declare import scopes
 from neuromech.graph.model import BodyModel, Connection, Element
 from neuromech.graph.names import SENDER, Resolver, qualified, receiver
@@ -69,6 +69,9 @@ def crossings(elements: list[Element], body: BodyModel | None) -> Iterator[Edge]
         if isinstance(way, ConstantMomentArms):
             for joint in {**way.moment_arms, **way.reference_angles}:
                 yield element.name, joint, Connection("crossing", f"{element.path}.path.moment_arms")
+        elif isinstance(way, LeverArms):
+            for joint in way.arms:
+                yield element.name, joint, Connection("crossing", f"{element.path}.path.arms")
         elif isinstance(way, StraightLines) and body is not None:
             for joint in crossed_by_lines(way, body):
                 yield element.name, joint, Connection("crossing", f"{element.path}.path.points")

@@ -2,16 +2,17 @@
 
 from collections.abc import Iterable
 from dataclasses import replace
+from typing import TypeVar
 
 from neuromech.components.base import Component
-from neuromech.components.muscles import ConstantMomentArms, PathPoint, StraightLines
+from neuromech.components.paths import ConstantMomentArms, LeverArms, PathPoint, StraightLines
 from neuromech.graph.model import Element
 from neuromech.graph.names import Resolver, wanted
 from neuromech.spec.model import Contact, Joint, Segment
-from neuromech.units import Quantity
 
 _JOINT = wanted("joint")
 _SEGMENT = wanted("segment")
+_Value = TypeVar("_Value")
 
 
 def resolved(elements: Iterable[Element], resolver: Resolver) -> list[Element]:
@@ -49,14 +50,16 @@ def _component_fields(spec: Component, element: Element, resolver: Resolver) -> 
             for field in ("reference_angles", "moment_arms")
         }
         fields["path"] = way.model_copy(update=maps)
+    elif isinstance(way, LeverArms):
+        fields["path"] = way.model_copy(update={"arms": _joints(way.arms, "arms", element, resolver)})
     elif isinstance(way, StraightLines):
         points = tuple(_point(point, index, element, resolver) for index, point in enumerate(way.points))
         fields["path"] = way.model_copy(update={"points": points})
     return fields
 
 
-def _joints(values: dict[str, Quantity], field: str, element: Element, resolver: Resolver) -> dict[str, Quantity]:
-    found: dict[str, Quantity] = {}
+def _joints(values: dict[str, _Value], field: str, element: Element, resolver: Resolver) -> dict[str, _Value]:
+    found: dict[str, _Value] = {}
     for joint, value in values.items():
         path = f"{element.path}.path.{field}.{joint}"
         name = resolver.qualify(joint, element.scope, path, _JOINT)

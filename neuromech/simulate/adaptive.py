@@ -70,7 +70,7 @@ def _derivative(program: Program, memory: Memory, latest: float) -> Callable[[fl
     _, s, u, p, work, offsets = memory.buffers
 
     def derivative(t: float, x: Floats) -> Floats:
-        slope = np.empty_like(x)
+        slope = np.zeros_like(x)
         compiled(min(t, latest), x, slope, s, u, p, work, offsets)
         return slope
 

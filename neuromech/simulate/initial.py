@@ -2,9 +2,12 @@
 
 import numpy as np
 
+from neuromech.compiler.lower_body import muscles
 from neuromech.compiler.numerics import Floats
-from neuromech.compiler.program import Program
+from neuromech.compiler.program import Memory, Program
 from neuromech.compiler.wiring import generator
+from neuromech.components.base import Muscle
+from neuromech.errors import DocumentError
 from neuromech.spec.model import Uniform
 from neuromech.units import quantity
 
@@ -31,3 +34,31 @@ def initial_states(program: Program, seed: int) -> Floats:
             else:
                 values[places.start : places.stop] = quantity(str(wanted))
     return values
+
+
+def rest_muscles(program: Program, memory: Memory) -> None:
+    """Give muscles the states that depend on their length at time zero, where `protocol.initial` does not set them.
+
+    The state of the body stands in `memory.s` already.
+
+    Raises:
+        DocumentError: a muscle cannot be at rest at that length.
+    """
+    graph, layout = program.graph, program.layout
+    program.module.lengths_now(memory.s, memory.p, memory.F, memory.I, memory.T, memory.D)
+    initial = graph.document.experiment.protocol.initial
+    given = {position for pattern in initial for places in layout.state_places(pattern) for position in places}
+    problems = []
+    for element in muscles(graph):
+        assert isinstance(element.spec, Muscle)
+        try:
+            found = element.spec.states_at_rest(float(memory.s[layout.signals[f"{element.name}.length"]]))
+        except ValueError as error:
+            problems.append(graph.document.problem("no-equilibrium", f"{element.path}.tendon_slack_length", str(error)))
+            continue
+        for state, value in found.items():
+            position = layout.states[f"{element.name}.{state}"]
+            if position not in given:
+                memory.x[position] = value
+    if problems:
+        raise DocumentError(problems)

@@ -17,7 +17,7 @@ from neuromech.simulate.adaptive import breakpoints, integrate, is_adaptive, tic
 from neuromech.simulate.compiled_loop import BAD_STATE, BAD_TORQUE, FELL, compiled_loop
 from neuromech.simulate.fall import FallRule
 from neuromech.simulate.helpers import helpers
-from neuromech.simulate.initial import initial_states
+from neuromech.simulate.initial import initial_states, rest_muscles
 from neuromech.simulate.recorder import Recorder
 from neuromech.simulate.recording import Outcome, Recording
 
@@ -152,6 +152,7 @@ def _with_body(run: _Run) -> tuple[Outcome, str]:
 def _body_loop(run: _Run, body: Body) -> Outcome | None:
     """Step a body with the compiled functions of its engine where there are any, else through its methods."""
     body.read(_body_state(run, body))
+    rest_muscles(run.program, run.memory)
     run.program.module.begin(*run.memory.buffers)
     native = None if is_adaptive(run.program) else body.native()
     if native is None or body.native_module is None:

@@ -237,6 +237,9 @@ class Solver(SpecModel):
     method: Literal["rk4", "exponential_euler", "rush_larsen", "lsoda", "radau", "dop853"] = "rk4"
     step: PositiveTime = quantity("0.5 ms")
     body_step: PositiveTime = quantity("1 ms")
+    muscle_step: Annotated[
+        PositiveTime, Field(description="longest step in which muscles with a tendon integrate their fibres")
+    ] = quantity("0.5 ms")
     coupling: Literal["observer_implicit", "explicit"] = "observer_implicit"
     threads: Annotated[
         int | None,

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from itertools import pairwise, product
 
 from neuromech.components.base import Path
-from neuromech.components.muscles import ConstantMomentArms, StraightLines
+from neuromech.components.paths import ConstantMomentArms, LeverArms, StraightLines
 from neuromech.errors import Problem
 from neuromech.graph.model import BodyModel, Element, ModelGraph
 from neuromech.graph.names import enclosing
@@ -28,10 +28,11 @@ def arms_and_angles_differ(graph: ModelGraph) -> Iterator[Problem]:
 def joints_off_one_chain(graph: ModelGraph) -> Iterator[Problem]:
     """A muscle's path runs from one segment to another and so crosses joints of one chain only."""
     for element, way in _paths(graph):
-        if isinstance(way, ConstantMomentArms) and graph.body is not None:
-            joints = list(way.moment_arms)
+        if isinstance(way, ConstantMomentArms | LeverArms) and graph.body is not None:
+            field = "arms" if isinstance(way, LeverArms) else "moment_arms"
+            joints = list(getattr(way, field))
             if not _on_one_chain(graph.body, joints):
-                path = f"{element.path}.path.moment_arms"
+                path = f"{element.path}.path.{field}"
                 message = "crosses joints that no path from one segment to another can cross"
                 hint = "joints of one muscle lie on one chain of segments"
                 yield graph.document.problem("path-joints", path, message, ", ".join(joints), hint)
