@@ -12,7 +12,7 @@ CONSTANT, COSINE, GEOMETRIC = range(3)
 
 @equation
 def lever(form: int, radius: float, angle: float, reference: float, peak: float) -> tuple[float, float]:
-    """Return the lever arm (m) at an angle, and its integral (m) from the reference angle on; Dzeladini 2013 eq. 2.18–23.
+    """Return the lever arm (m) at an angle, and its integral (m) from the reference on; Dzeladini 2013 eq. 2.18–2.23.
 
     Args:
         form: `CONSTANT`, `COSINE` or `GEOMETRIC`.

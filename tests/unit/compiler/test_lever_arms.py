@@ -33,7 +33,7 @@ def test_the_arm_is_the_radius_at_its_maximum_and_smaller_elsewhere(form, angle,
 
 @given(angles, st.floats(0.1, 0.9))
 def test_the_geometric_arm_is_that_of_a_straight_line(angle, share):
-    """From a point at r_0 on one segment to one at l_0 = r_0/share on the other: arm = twice the area over the length."""
+    """From a point at r_0 on one segment to one at r_0/share on the other: twice the area over the length."""
     radius = 0.05
     x, y = radius * cos(angle) - radius / share, radius * sin(angle)
     arm = radius / share * y / hypot(x, y)

@@ -78,7 +78,7 @@ def drift(document):
 
 
 def test_energy_of_a_passive_release_goes_where_it_should(drift):
-    """What gravity, tendon and fibre exchange adds up within two thousandths at 1 ms, and to first order in the step."""
+    """What gravity, tendon and fibre exchange adds up within two thousandths at 1 ms, to first order."""
     fallen = WEIGHT * (1.0 - np.cos(np.radians(START_DEGREES)))
     coarse, fine = drift(1), drift(0.25)
     assert coarse < 2e-3 * fallen
