@@ -27,6 +27,11 @@ class Expectation:
         self._low, self._high = self._interval()
         self._factor = 1.0 if unit is None else unit_factor(unit)[0] / unit_factor(written_unit(expected))[0]
 
+    @property
+    def interval(self) -> tuple[float, float]:
+        """Lowest and highest number that is expected, in the measure's unit; a text is expected in neither."""
+        return self._low, self._high
+
     def satisfied(self, value: Value) -> bool:
         """Return whether a measured value, in the measure's unit, is what is expected."""
         if isinstance(value, str):

@@ -74,7 +74,7 @@ def _overlaps(document: Document, driven: dict[str, list[_Change]]) -> Iterator[
 
 
 def _immovable(document: Document, driven: dict[str, list[_Change]], layout: Layout) -> Iterator[Problem]:
-    for path, name in _uses(document.experiment):
+    for path, name in uses(document.experiment):
         if name in driven and path not in layout.followed:
             message = f"parameter '{name}' cannot change during a run, because it sets {path}"
             yield document.problem(
@@ -82,8 +82,9 @@ def _immovable(document: Document, driven: dict[str, list[_Change]], layout: Lay
             )
 
 
-def _uses(experiment: Experiment) -> Iterator[tuple[str, str]]:
-    for section in ("network", "muscles", "sensors", "instances", "body", "world", "protocol", "solver"):
+def uses(experiment: Experiment) -> Iterator[tuple[str, str]]:
+    """Yield (path, parameter) of every value of a document that follows a parameter."""
+    for section in ("network", "muscles", "sensors", "instances", "body", "world", "protocol", "solver", "record"):
         yield from _walk(getattr(experiment, section), section)
 
 

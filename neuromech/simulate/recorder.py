@@ -1,6 +1,7 @@
 """Where a run writes its samples, and how they become a recording."""
 
 import platform
+from functools import cache
 from importlib.metadata import version
 
 import numpy as np
@@ -14,6 +15,11 @@ from neuromech.simulate.recording import GroupData, Outcome, Provenance, Recordi
 from neuromech.units import si_unit
 
 _PACKAGES = ("numpy", "scipy", "numba", "pybullet")
+
+
+@cache
+def _version(package: str) -> str:
+    return version(package)
 
 
 class Recorder:
@@ -45,8 +51,8 @@ class Recorder:
         provenance = Provenance(
             name=document.experiment.name,
             specification=document.text,
-            version=version("neuromech"),
-            versions={package: version(package) for package in _PACKAGES},
+            version=_version("neuromech"),
+            versions={package: _version(package) for package in _PACKAGES},
             engine=engine,
             platform=f"{platform.platform()}, Python {platform.python_version()}",
             seed=seed,

@@ -26,6 +26,20 @@ Progress = Callable[[float], None]
 _SECONDS_BETWEEN_REPORTS = 0.05
 
 
+@dataclass(frozen=True, slots=True)
+class Checkpoint:
+    """A look at a run while it goes on.
+
+    Args:
+        at: simulated time (s).
+        stop: gets the recording up to then, as if the run had finished; returns why the run is to end there, or an
+            empty text where it is to go on.
+    """
+
+    at: float
+    stop: Callable[[Recording], str]
+
+
 @dataclass
 class _Run:
     """What the loops share: `done` is the number of ticks that are complete."""
@@ -34,13 +48,31 @@ class _Run:
     memory: Memory
     recorder: Recorder
     ticks: int
+    seed: int
     progress: Progress | None
+    checkpoint: Checkpoint | None
+    engine: str = "none"
     done: int = 0
     started: float = field(default_factory=time.perf_counter)
 
     @property
     def now(self) -> float:
         return self.done * self.program.tick
+
+    @property
+    def pause(self) -> int:
+        """The tick of the checkpoint; the last one where there is none."""
+        return self.ticks if self.checkpoint is None else min(round(self.checkpoint.at / self.program.tick), self.ticks)
+
+    def recording(self, outcome: Outcome) -> Recording:
+        wall = time.perf_counter() - self.started
+        return self.recorder.recording(self.done, outcome, self.seed, self.engine, wall)
+
+    def ended_at_checkpoint(self) -> Outcome | None:
+        if self.checkpoint is None or self.done != self.pause or self.done == self.ticks:
+            return None
+        words = self.checkpoint.stop(self.recording(Outcome("finished", self.now)))
+        return Outcome("stopped", self.now, words) if words else None
 
     def report(self) -> None:
         if self.progress is not None:
@@ -55,7 +87,12 @@ class _Run:
 
 
 def simulate(
-    program: Program, *, seed: int | None = None, progress: Progress | None = None, duration: float | None = None
+    program: Program,
+    *,
+    seed: int | None = None,
+    progress: Progress | None = None,
+    duration: float | None = None,
+    checkpoint: Checkpoint | None = None,
 ) -> Recording:
     """Run a program to the end of its protocol.
 
@@ -64,9 +101,11 @@ def simulate(
         seed: of random initial states; that of the protocol where not given.
         progress: is told the simulated time (s), about twenty times a second.
         duration: simulated time (s); that of the protocol where not given.
+        checkpoint: may end the run at one time before its end.
 
     Returns:
-        The recording. Its outcome says whether the run finished, fell, diverged, or was stopped by the user.
+        The recording. Its outcome says whether the run finished, fell, diverged, or was stopped by the user or at the
+        checkpoint.
 
     Raises:
         DocumentError: the engine cannot move this body.
@@ -76,10 +115,8 @@ def simulate(
     ticks = round((float(protocol.duration) if duration is None else duration) / program.tick)
     memory = program.memory()
     memory.x[:] = initial_states(program, used_seed)
-    run = _Run(program, memory, Recorder(program, memory.I, ticks), ticks, progress)
-    outcome, engine = _with_body(run) if program.tree else (_ended(run, _network), "none")
-    wall = time.perf_counter() - run.started
-    return run.recorder.recording(run.done, outcome, used_seed, engine, wall)
+    run = _Run(program, memory, Recorder(program, memory.I, ticks), ticks, used_seed, progress, checkpoint)
+    return run.recording(_with_body(run) if program.tree else _ended(run, _network))
 
 
 def _ended(run: _Run, loop: Callable[[_Run], Outcome | None]) -> Outcome:
@@ -116,18 +153,19 @@ def _in_chunks(run: _Run, chunk: Callable[[int], Outcome | None]) -> Outcome | N
         run.started = time.perf_counter()
         while run.done < run.ticks:
             started = time.perf_counter()
-            ended = chunk(min(run.done + length, run.ticks))
+            ended = chunk(min(run.done + length, run.pause if run.done < run.pause else run.ticks))
+            spent = max(time.perf_counter() - started, 1e-6)
+            ended = ended or run.ended_at_checkpoint()
             if ended is not None:
                 return ended
             run.report()
-            spent = max(time.perf_counter() - started, 1e-6)
             length = max(1, min(int(length * _SECONDS_BETWEEN_REPORTS / spent), length * 10))
     return None
 
 
 def _network_adaptive(run: _Run) -> Outcome | None:
     tick, memory = run.program.tick, run.memory
-    marks = breakpoints(run.program, run.ticks * tick)
+    marks = sorted({*breakpoints(run.program, run.ticks * tick), run.pause * tick})
     for start, end in itertools.pairwise(marks):
         first, last = ticks_from(start, tick), ticks_from(end, tick)
         states = integrate(run.program, memory, start, end, np.arange(first, last, dtype=np.float64) * tick)
@@ -136,17 +174,20 @@ def _network_adaptive(run: _Run) -> Outcome | None:
             run.program.module.sample(first + row, tick, *memory.buffers, run.recorder.samples)
         memory.x[:] = states[-1]
         run.done = last
+        ended = run.ended_at_checkpoint()
+        if ended is not None:
+            return ended
         run.report()
     return None
 
 
-def _with_body(run: _Run) -> tuple[Outcome, str]:
+def _with_body(run: _Run) -> Outcome:
     model = run.program.graph.body
     if model is None:
         raise ValueError("a program with a tree has a body")
     with open_body(model, run.program.tick) as body:
-        engine = str(body.engine)
-        return _ended(run, lambda same: _body_loop(same, body)), engine
+        run.engine = str(body.engine)
+        return _ended(run, lambda same: _body_loop(same, body))
 
 
 def _body_loop(run: _Run, body: Body) -> Outcome | None:

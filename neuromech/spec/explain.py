@@ -10,6 +10,7 @@ from pydantic_core import PydanticUndefined
 
 from neuromech.components.catalogue import Catalogue
 from neuromech.errors import DocumentError, Mark, Problem, did_you_mean
+from neuromech.spec.includes import compose
 from neuromech.spec.model import Experiment
 from neuromech.spec.node import ListNode, MapNode, Node, Origin, ScalarNode, join, short_text
 from neuromech.spec.overrides import split_path
@@ -50,7 +51,7 @@ def explain(path: str, spec_path: Path, catalogue: Catalogue, overrides: Sequenc
     Raises:
         DocumentError: the document cannot be composed, or has no such path.
     """
-    resolved = resolve(spec_path, overrides, catalogue)
+    resolved = resolve(compose(spec_path), overrides, catalogue)
     if resolved.problems:
         raise DocumentError(resolved.problems)
     positions = Positions.of(resolved.tree)

@@ -9,6 +9,7 @@ from pydantic import TypeAdapter, ValidationError
 from neuromech.components.catalogue import Catalogue
 from neuromech.errors import DocumentError, Problem
 from neuromech.spec.document import Document
+from neuromech.spec.includes import Composed, compose
 from neuromech.spec.model import Experiment
 from neuromech.spec.plain import plain, to_yaml
 from neuromech.spec.positions import Positions
@@ -30,7 +31,12 @@ def load(path: Path, *, catalogue: Catalogue, overrides: Sequence[str] = ()) -> 
     Raises:
         DocumentError: carries everything that is wrong with the document, in file order.
     """
-    resolved = resolve(path, overrides, catalogue)
+    return load_composed(compose(path), catalogue=catalogue, overrides=overrides)
+
+
+def load_composed(composed: Composed, *, catalogue: Catalogue, overrides: Sequence[str] = ()) -> Document:
+    """Return the document of files that were read before; arguments and errors as for `load`."""
+    resolved = resolve(composed, overrides, catalogue)
     positions = Positions.of(resolved.tree)
     values: dict[str, Any] = plain(resolved.tree)
     problems = [*resolved.problems, *check_tree(resolved, catalogue)]
@@ -45,7 +51,7 @@ def load(path: Path, *, catalogue: Catalogue, overrides: Sequence[str] = ()) -> 
     problems.extend(check(sections, resolved.asked | resolved.through))
     if problems or experiment is None:
         raise DocumentError(_once(positions.placed(problem) for problem in problems))
-    return Document(path, experiment, positions.values, to_yaml(resolved.tree), resolved.files)
+    return Document(composed.files[0], experiment, positions.values, to_yaml(resolved.tree), resolved.files)
 
 
 def _sound_sections(values: Mapping[str, Any], broken: set[str], catalogue: Catalogue) -> Sections:

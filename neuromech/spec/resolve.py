@@ -6,7 +6,7 @@ from pathlib import Path
 
 from neuromech.components.catalogue import Catalogue
 from neuromech.errors import Problem, did_you_mean
-from neuromech.spec.includes import compose
+from neuromech.spec.includes import Composed
 from neuromech.spec.instances import Expander
 from neuromech.spec.model import Instance
 from neuromech.spec.modules import Module, read_modules
@@ -35,13 +35,12 @@ class Resolved:
     problems: tuple[Problem, ...]
 
 
-def resolve(path: Path, overrides: Sequence[str], catalogue: Catalogue) -> Resolved:
+def resolve(composed: Composed, overrides: Sequence[str], catalogue: Catalogue) -> Resolved:
     """Return the resolved tree of a document.
 
     Raises:
-        DocumentError: the files cannot be composed, or an override leads nowhere; nothing more can be said then.
+        DocumentError: an override leads nowhere; nothing more can be said then.
     """
-    composed = compose(path)
     overridden = override(composed.tree, overrides)
     problems: list[Problem] = []
     _check_schema_key(overridden.tree, problems)

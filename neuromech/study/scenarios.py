@@ -1,6 +1,6 @@
 """The runs of one candidate: each scenario with each of its seeds."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Self
 
@@ -61,9 +61,10 @@ class Scenarios:
         drawn = np.random.SeedSequence([self.seed, generation]).generate_state(draws, np.uint32) if draws else ()
         return tuple(int(drawn[run.draw]) if run.seed is None else run.seed for run in self.runs)
 
-    def mean(self, values: Sequence[float]) -> float:
-        """Return the weighted mean of one value for each run."""
-        return sum(run.weight * value for run, value in zip(self.runs, values, strict=True))
+    @property
+    def weights(self) -> tuple[float, ...]:
+        """The part that each run has in a mean."""
+        return tuple(run.weight for run in self.runs)
 
 
 def written_overrides(values: Mapping[str, str | int | float | bool]) -> tuple[str, ...]:

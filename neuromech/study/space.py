@@ -85,6 +85,11 @@ class Space:
         """Names of the tuned parameters, in authored order."""
         return tuple(dimension.name for dimension in self.dimensions)
 
+    @property
+    def all_names(self) -> tuple[str, ...]:
+        """Names of all parameters that a point sets, those of `also` included."""
+        return tuple(name for dimension in self.dimensions for name in (dimension.name, *dimension.also))
+
     def parameters(self, point: Floats) -> dict[str, str]:
         """Return name → value of every parameter that a point sets, those of `also` included.
 

@@ -1,0 +1,45 @@
+"""A program with other values of named parameters, without lowering the document again."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+from neuromech.compiler.program import Program
+from neuromech.compiler.timeline import uses
+from neuromech.components.base import Component
+
+
+def fixed_uses(program: Program, names: frozenset[str]) -> list[str]:
+    """Return the paths of a document that follow one of the parameters and that `rebound` cannot change.
+
+    Those are values that lowering itself looks at, such as a mass or an initial state, and the breakpoints of a
+    parameter that the protocol moves.
+    """
+    experiment, followed = program.graph.document.experiment, program.layout.followed - set(_initial(program))
+    driven = [f"protocol.ramps.{name}" for name, ramp in experiment.protocol.ramps.items() if ramp.parameter in names]
+    driven += [
+        f"protocol.events.{name}" for name, event in experiment.protocol.events.items() if names & event.set.keys()
+    ]
+    return driven + [path for path, name in uses(experiment) if name in names and path not in followed]
+
+
+def rebound(program: Program, values: Mapping[str, float]) -> Program:
+    """Return the program that lowering would give if parameters had other values.
+
+    Args:
+        program: from `lower`; `fixed_uses` finds nothing for these parameters.
+        values: name -> SI value. The document in the program's graph keeps the old ones.
+    """
+    parameters = program.parameters.copy()
+    for name, value in values.items():
+        parameters[program.layout.bound_to(name)] = value
+    return replace(program, parameters=parameters)
+
+
+def _initial(program: Program) -> list[str]:
+    """Return the paths of all fields that hold a value at time zero."""
+    return [
+        f"{element.spec_path}.{state.initial}"
+        for element in program.graph.elements()
+        if isinstance(element.spec, Component)
+        for state in element.spec.states
+    ]

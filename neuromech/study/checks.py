@@ -1,0 +1,75 @@
+"""What can be said about a study before anything runs."""
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+from neuromech.components.catalogue import Catalogue
+from neuromech.errors import DocumentError, Problem
+from neuromech.graph.build import build
+from neuromech.graph.check import check
+from neuromech.graph.model import ModelGraph
+from neuromech.spec.document import Document
+from neuromech.spec.includes import Composed
+from neuromech.spec.load import load_composed
+from neuromech.spec.study import Study
+from neuromech.study.algorithms.catalogue import AlgorithmCatalogue
+from neuromech.study.objective_checks import objective_problems
+from neuromech.study.scenarios import written_overrides
+
+
+def check_study(document: Document, composed: Composed, overrides: tuple[str, ...] = ()) -> Study:
+    """Check a study and return it.
+
+    Args:
+        document: the document.
+        composed: its files.
+        overrides: what was changed in it, each as in `--set`.
+
+    Raises:
+        DocumentError: the document has no study, or something in it is wrong; every problem is named.
+    """
+    study = document.experiment.study
+    if study is None:
+        hint = "docs/studies.md shows what stands in one"
+        raise DocumentError([document.problem("no-study", "", "has no section 'study'", hint=hint)])
+    graph = build(document)
+    check(graph)
+    problems = list(study_problems(graph, composed, overrides))
+    if problems:
+        raise DocumentError(problems)
+    return study
+
+
+def study_problems(graph: ModelGraph, composed: Composed, overrides: tuple[str, ...] = ()) -> Iterator[Problem]:
+    """Yield what is wrong with the study of a model that is right otherwise."""
+    document = graph.document
+    study = document.experiment.study
+    if study is None:
+        return
+    try:
+        AlgorithmCatalogue.installed().settings(study.algorithm, mark=document.mark)
+    except DocumentError as error:
+        yield from error.problems
+    yield from objective_problems(graph, study)
+    for name in study.scenarios:
+        yield from _scenario_problems(document, name, study, composed, overrides)
+
+
+def _scenario_problems(
+    document: Document, name: str, study: Study, composed: Composed, overrides: tuple[str, ...]
+) -> Iterator[Problem]:
+    changes = study.scenarios[name].set
+    if not changes:
+        return
+    texts = (*overrides, *written_overrides(changes))
+    try:
+        check(build(load_composed(composed, catalogue=Catalogue.installed(), overrides=texts)))
+    except DocumentError as error:
+        place = f"study.scenarios.{name}.set"
+        for problem in error.problems:
+            if problem.path in changes:
+                path = f"{place}.{problem.path}"
+                yield replace(problem, path=path, mark=document.mark(path))
+            else:
+                message = f"breaks the document: {problem.path} {problem.message}"
+                yield replace(problem, path=place, message=message, mark=document.mark(place))
