@@ -1,10 +1,14 @@
 """One study in a database, by Optuna; `optuna-dashboard` shows it.
 
 A study is a study of Optuna. Evaluation n is its trial n, which is made (running) before the evaluation starts and gets
-its results after it: what was measured first, its final state last. So a trial that does not run any more is complete.
-The state of the algorithm is an attribute of the study, written as a whole after each generation.
+its results after it, each in one transaction. So a trial that does not run any more is complete. The state of the
+algorithm is an attribute of the study, written as a whole after each generation.
+
+Trials are written as rows of Optuna's tables: its own functions ask the database several times for each parameter,
+which may take longer than a simulation. Everything is read through them.
 """
 
+import json
 import math
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
@@ -13,11 +17,14 @@ from datetime import datetime
 from typing import Any
 
 import numpy as np
-from optuna.distributions import BaseDistribution, FloatDistribution
-from optuna.exceptions import StorageInternalError, UpdateFinishedTrialError
+from optuna.distributions import FloatDistribution, distribution_to_json
+from optuna.exceptions import StorageInternalError
 from optuna.storages import RDBStorage
+from optuna.storages._rdb import models
 from optuna.trial import FrozenTrial, TrialState
+from sqlalchemy import insert, select
 from sqlalchemy.exc import SQLAlchemyError
+from sqlalchemy.orm import Session
 
 from neuromech.errors import StudyError
 from neuromech.study.evaluation import Evaluation, Job
@@ -110,35 +117,53 @@ class StoredStudy:
             self._storage.set_study_user_attr(self._study, BOUNDARY, asdict(boundary))
 
     def begin(self, job: Job, space: Space) -> None:
-        """Store that an evaluation is about to start, in one step; nothing happens where that is stored already.
+        """Store that an evaluation is about to start, in one transaction; nothing happens where it is stored already.
 
         Raises:
             StudyError: the database fails, or another process works on the study.
         """
         if job.number in self._trials:
             return
-        with working(self.place):
-            made = self._storage.create_new_trial(self._study, _trial(job, space))
-            number = self._storage.get_trial_number_from_id(made)
-        if number != job.number:
-            raise StudyError(_ELSEWHERE)
-        self._trials[job.number] = made
+        with working(self.place), Session(self._storage.engine) as session, session.begin():
+            study = models.StudyModel.find_or_raise_by_id(self._study, session, for_update=True)
+            now = datetime.now()
+            trial = models.TrialModel(study=study, number=job.number, state=TrialState.RUNNING, datetime_start=now)
+            session.add(trial)
+            session.flush()
+            number = int(trial.trial_id)
+            if self._is_foreign(session, number):
+                raise StudyError(_ELSEWHERE)
+            session.execute(insert(models.TrialParamModel), _parameter_rows(number, job, space))
+            session.execute(insert(models.TrialUserAttributeModel), _attribute_rows(number, _known(job, space)))
+        self._trials[job.number] = number
 
     def finish(self, evaluation: Evaluation) -> None:
-        """Store a complete evaluation that was begun; the last step makes it count.
+        """Store a complete evaluation that was begun, in one transaction.
 
         Raises:
             StudyError: the database fails, or another process works on the study.
         """
-        trial = self._trials[evaluation.number]
-        with working(self.place):
-            for name, value in _results(evaluation).items():
-                self._storage.set_trial_user_attr(trial, name, value)
-            if evaluation.score is None:
-                self._storage.set_trial_state_values(trial, TrialState.FAIL)
-            else:
+        number = self._trials[evaluation.number]
+        with working(self.place), Session(self._storage.engine) as session, session.begin():
+            trial = session.get_one(models.TrialModel, number, with_for_update=True)
+            if trial.state != TrialState.RUNNING:
+                raise StudyError(_ELSEWHERE)
+            session.execute(insert(models.TrialUserAttributeModel), _attribute_rows(number, _results(evaluation)))
+            if evaluation.score is not None:
                 value = shown_value(evaluation.score, bool(self.header.stages))
-                self._storage.set_trial_state_values(trial, TrialState.COMPLETE, [value])
+                finite = models.TrialValueModel.TrialValueType.FINITE
+                session.add(models.TrialValueModel(trial_id=number, objective=0, value=value, value_type=finite))
+            trial.state = TrialState.FAIL if evaluation.score is None else TrialState.COMPLETE
+            trial.datetime_complete = datetime.now()
+
+    def _is_foreign(self, session: Session, ours: int) -> bool:
+        """Tell whether the study has trials between our latest one and the one that was just added."""
+        latest = max(self._trials.values(), default=0)
+        trial = models.TrialModel
+        between = select(trial.trial_id).where(
+            trial.study_id == self._study, trial.trial_id > latest, trial.trial_id != ours
+        )
+        return session.scalar(between.limit(1)) is not None
 
 
 def shown_value(score: Score, staged: bool) -> float:
@@ -146,32 +171,27 @@ def shown_value(score: Score, staged: bool) -> float:
     return score.stage + 0.5 + math.atan(score.value) / math.pi if staged else score.value
 
 
-def _trial(job: Job, space: Space) -> FrozenTrial:
-    """Return a running trial. Made without Optuna's check of bounds, which units may round by one bit."""
+def _known(job: Job, space: Space) -> dict[str, Any]:
+    """Return what is known of an evaluation before it starts."""
     written = space.parameters(np.array(job.point))
-    numbers = {name: float(text.partition(" ")[0]) for name, text in written.items()}
-    attributes = {"generation": job.generation, "index": job.index, "seeds": job.seeds, "parameters": written}
-    return FrozenTrial(
-        number=-1,
-        state=TrialState.RUNNING,
-        value=None,
-        datetime_start=datetime.now(),
-        datetime_complete=None,
-        params={dimension.name: numbers[dimension.name] for dimension in space.dimensions},
-        distributions=_distributions(space),
-        user_attrs=attributes,
-        system_attrs={},
-        intermediate_values={},
-        trial_id=-1,
-    )
+    return {"generation": job.generation, "index": job.index, "seeds": job.seeds, "parameters": written}
 
 
-def _distributions(space: Space) -> dict[str, BaseDistribution]:
-    found: dict[str, BaseDistribution] = {}
+def _parameter_rows(trial: int, job: Job, space: Space) -> list[dict[str, Any]]:
+    """Return the parameters as Optuna's tools show them: numbers in the unit of the document, with their bounds."""
+    written = space.parameters(np.array(job.point))
+    rows = []
     for one in space.dimensions:
         factor = unit_factor(one.unit)[0]
-        found[one.name] = FloatDistribution(one.least / factor, one.most / factor, log=one.log)
-    return found
+        bounds = FloatDistribution(one.least / factor, one.most / factor, log=one.log)
+        value = float(written[one.name].partition(" ")[0])
+        row = {"param_name": one.name, "param_value": value, "distribution_json": distribution_to_json(bounds)}
+        rows.append({"trial_id": trial, **row})
+    return rows
+
+
+def _attribute_rows(trial: int, attributes: Mapping[str, Any]) -> list[dict[str, Any]]:
+    return [{"trial_id": trial, "key": key, "value_json": json.dumps(value)} for key, value in attributes.items()]
 
 
 def _results(evaluation: Evaluation) -> dict[str, Any]:
@@ -192,8 +212,6 @@ def working(shown: str) -> Iterator[None]:
     """Turn what goes wrong in a database into a `StudyError`."""
     try:
         yield
-    except UpdateFinishedTrialError as error:
-        raise StudyError(_ELSEWHERE) from error
     except (StorageInternalError, SQLAlchemyError) as error:
         hint = "what is stored is safe; resume when the database works again"
         raise StudyError(f"{shown} fails: {reason(error)}. Hint: {hint}") from error
