@@ -14,6 +14,7 @@ from neuromech.spec.fields import KindFromKey, OfCatalogue
 from neuromech.spec.measure import Expected, Measure
 from neuromech.spec.scalars import Name, PositiveTime, Seed, Written
 from neuromech.spec.study import Study
+from neuromech.spec.sweep import Sweep
 from neuromech.units import (
     ACCELERATION,
     ANGLE,
@@ -324,4 +325,5 @@ class Experiment(Scope):
     solver: Solver = Solver()
     record: dict[Name, RecordGroup] = {}
     study: Study | None = None
+    sweeps: dict[Name, Sweep] = {}
     claims: dict[Name, Claim] = {}

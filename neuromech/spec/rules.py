@@ -12,6 +12,8 @@ from neuromech.spec.node import join
 from neuromech.spec.objective_rules import check_expected, check_objective
 from neuromech.spec.study import Study
 from neuromech.spec.study_rules import check_study
+from neuromech.spec.sweep import Sweep
+from neuromech.spec.sweep_rules import check_sweep, sweep_clocks
 from neuromech.units import Quantity
 
 
@@ -24,6 +26,7 @@ class Sections:
     solver: Solver | None = None
     record: Mapping[str, RecordGroup] | None = None
     study: Study | None = None
+    sweeps: Mapping[str, Sweep] | None = None
     claims: Mapping[str, Claim] | None = None
     has_body: bool = False
 
@@ -54,6 +57,8 @@ def check(sections: Sections, asked: frozenset[str]) -> Iterator[Problem]:
         yield from check_study(sections.study, sections.parameters)
         yield from _stop_in_time(sections.study, sections.protocol)
         yield from check_objective(sections.study.objective)
+    for name, sweep in (sections.sweeps or {}).items():
+        yield from check_sweep(name, sweep, sections.parameters, sections.protocol)
     for name, claim in (sections.claims or {}).items():
         yield from check_expected(claim.expected, f"claims.{name}.expected")
 
@@ -125,6 +130,8 @@ def _clocks(sections: Sections) -> Iterator[Problem]:
         found.append(whole_multiple(sections.protocol.duration, tick, "protocol.duration", name))
     if sections.study is not None:
         found += _study_clocks(sections.study, tick, name)
+    for key, sweep in (sections.sweeps or {}).items():
+        found += sweep_clocks(key, sweep, tick, name)
     yield from (problem for problem in found if problem is not None)
 
 

@@ -16,7 +16,7 @@ from neuromech.spec.reader import parse
 from neuromech.study.space import Space
 
 PACKAGES = ("neuromech", "numpy", "scipy", "numba", "pybullet")
-_FREE = ("name", "description", "references", "claims", "study.evaluations")
+_FREE = ("name", "description", "references", "claims", "sweeps", "study.evaluations")
 _FREE_OF_PARAMETERS = ("description", "source")
 
 
@@ -79,7 +79,7 @@ class Header:
     def changes(self, now: Self) -> list[Change]:
         """Return what a study that goes on would do differently from this one, by path.
 
-        Names, descriptions, references, claims and the number of evaluations are free to change.
+        Names, descriptions, references, claims, sweeps and the number of evaluations are free to change.
         """
         old, new = _values(self.specification), _values(now.specification)
         paths = sorted({**old, **new})

@@ -21,7 +21,7 @@ from neuromech.study.algorithms.catalogue import AlgorithmCatalogue
 from neuromech.study.score import Score
 
 DIMENSION = 10
-EVALUATIONS = 30_000
+EVALUATIONS = 60_000
 SEEDS = range(20)
 
 
@@ -102,8 +102,8 @@ def deap_ga(counted: Counted, seed: int) -> None:
             individual.fitness.values = (1.0 / (1.0 + float(value)),)
         return individuals
 
-    def child() -> list[float]:
-        first, second = map(creator.Individual, tools.selRoulette(population, 2))
+    def child(first: list[float], second: list[float]) -> list[float]:
+        first = creator.Individual(first)
         loci = [locus for locus in range(DIMENSION) if random.random() < 0.3] or [random.randrange(DIMENSION)]
         drawn, _ = tools.cxBlend([first[locus] for locus in loci], [second[locus] for locus in loci], 0.5)
         for locus, value in zip(loci, drawn, strict=True):
@@ -113,7 +113,8 @@ def deap_ga(counted: Counted, seed: int) -> None:
     population = rated([creator.Individual(random.random() for _ in range(DIMENSION)) for _ in range(300)])
     while counted.count < EVALUATIONS:
         elites = [creator.Individual(elite) for elite in tools.selBest(population, 2)]
-        population = rated([*elites, *(child() for _ in range(298))])
+        parents = tools.selRoulette(population, 2 * 298)
+        population = rated([*elites, *map(child, parents[::2], parents[1::2])])
 
 
 def pymoo_pso(acceleration: float) -> Solver:

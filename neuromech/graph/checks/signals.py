@@ -24,7 +24,7 @@ def record_matches_nothing(graph: ModelGraph) -> Iterator[Problem]:
 
 
 def measure_of_unrecorded(graph: ModelGraph) -> Iterator[Problem]:
-    """What a claim or the objective of a study measures is recorded."""
+    """What a claim, the objective of a study or a sweep measures is recorded."""
     every, populations = list(signals(graph)), sizes(graph)
     groups = graph.document.experiment.record.values()
     recorded = [name for group in groups for pattern in group.signals for name in matching(pattern, every, populations)]
@@ -41,6 +41,8 @@ def _measures(experiment: Experiment) -> Iterator[tuple[str, Measure]]:
     if experiment.study is not None:
         objective = experiment.study.objective
         yield from ((f"study.objective.{path}", measure) for path, measure in objective.all_measures())
+    for name, sweep in experiment.sweeps.items():
+        yield from ((f"sweeps.{name}.measures.{key}", measure) for key, measure in sweep.measures.items())
 
 
 def initial_matches_nothing(graph: ModelGraph) -> Iterator[Problem]:
