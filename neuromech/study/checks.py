@@ -1,6 +1,6 @@
 """What can be said about a study before anything runs."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 from neuromech.components.catalogue import Catalogue
@@ -51,21 +51,32 @@ def study_problems(graph: ModelGraph, composed: Composed, overrides: tuple[str, 
     except DocumentError as error:
         yield from error.problems
     yield from objective_problems(graph, study)
-    for name in study.scenarios:
-        yield from _scenario_problems(document, name, study, composed, overrides)
+    for name, scenario in study.scenarios.items():
+        yield from change_problems(document, f"study.scenarios.{name}.set", scenario.set, composed, overrides)
 
 
-def _scenario_problems(
-    document: Document, name: str, study: Study, composed: Composed, overrides: tuple[str, ...]
+def change_problems(
+    document: Document,
+    place: str,
+    changes: Mapping[str, str | int | float | bool],
+    composed: Composed,
+    overrides: tuple[str, ...],
 ) -> Iterator[Problem]:
-    changes = study.scenarios[name].set
+    """Yield what is wrong with a document when it is changed as a map at a path of it says.
+
+    Args:
+        document: the document without the changes.
+        place: the path where they are written.
+        changes: path → value.
+        composed: the files of the document.
+        overrides: what else was changed in it, each as in `--set`.
+    """
     if not changes:
         return
     texts = (*overrides, *written_overrides(changes))
     try:
         check(build(load_composed(composed, catalogue=Catalogue.installed(), overrides=texts)))
     except DocumentError as error:
-        place = f"study.scenarios.{name}.set"
         for problem in error.problems:
             if problem.path in changes:
                 path = f"{place}.{problem.path}"
