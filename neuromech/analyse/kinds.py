@@ -7,14 +7,28 @@ from typing import Literal
 
 from neuromech.analyse.windows import View
 from neuromech.errors import MeasureError
-from neuromech.spec.measure import Measure
+from neuromech.spec.measure import Measure, ReferenceCurve
 
-Result = Literal["signal", "text", "number", "time", "length", "speed", "angle"]
+Result = Literal[
+    "signal", "text", "number", "time", "length", "speed", "angle", "energy", "power", "energy per distance"
+]
 
 RESULT_UNITS: Mapping[Result, str | None] = MappingProxyType(
-    {"text": None, "number": "", "time": "s", "length": "m", "speed": "m/s", "angle": "rad"}
+    {
+        "text": None,
+        "number": "",
+        "time": "s",
+        "length": "m",
+        "speed": "m/s",
+        "angle": "rad",
+        "energy": "J",
+        "power": "W",
+        "energy per distance": "J/m",
+    }
 )
 """SI unit of each result other than `signal`, which has the unit of the measured signal; None for a text."""
+
+FEWEST_PHASES = 3
 
 _EVERY_KIND = frozenset({"kind", "after", "until"})
 _CONTACTS = ("level", "least_duration")
@@ -30,6 +44,7 @@ class MeasureKind:
         needs: arguments that it needs; of `reference or feet`, one.
         takes: arguments that it can have besides; of `reference or feet`, at most one.
         feet: how many feet it is about, None for any number.
+        signals: how many signals it is about, each given by its name; None for any number, and for patterns.
         of_early_end: whether it may be taken of a run that ended early, in a fall for example, up to its end.
         least: no value is below this, SI units; None where there is no limit.
         most: no value is above this.
@@ -41,6 +56,7 @@ class MeasureKind:
     needs: tuple[str, ...] = ()
     takes: tuple[str, ...] = ()
     feet: int | None = None
+    signals: int | None = None
     of_early_end: bool = False
     least: float | None = None
     most: float | None = None
@@ -60,8 +76,20 @@ class MeasureKind:
             if len(given & _names(choice)) > 1:
                 raise MeasureError(f"measure '{spec.kind}' takes {_words(choice)}, not both")
         self._refuse_others(spec, given)
+        self._count(spec)
+        if spec.curve is not None:
+            _check_curve(spec.curve, spec.signals or ())
+
+    def _count(self, spec: Measure) -> None:
         if self.feet is not None and spec.feet is not None and len(spec.feet) != self.feet:
-            raise MeasureError(f"measure '{spec.kind}' takes {self.feet} feet (got {len(spec.feet)})")
+            feet = "1 foot" if self.feet == 1 else f"{self.feet} feet"
+            raise MeasureError(f"measure '{spec.kind}' takes {feet} (got {len(spec.feet)})")
+        if self.signals is not None and spec.signals is not None:
+            if len(spec.signals) != self.signals:
+                raise MeasureError(f"measure '{spec.kind}' takes {self.signals} signals (got {len(spec.signals)})")
+            for name in spec.signals:
+                if any(sign in name for sign in "*?["):
+                    raise MeasureError(f"measure '{spec.kind}' takes the names of signals, not patterns (got '{name}')")
 
     def _refuse_others(self, spec: Measure, given: set[str]) -> None:
         known = {name for choice in (*self.needs, *self.takes) for name in _names(choice)}
@@ -70,6 +98,17 @@ class MeasureKind:
         for name in sorted(given - known - _EVERY_KIND):
             hint = f". Hint: it takes {', '.join(sorted(known))}" if known else ""
             raise MeasureError(f"measure '{spec.kind}' takes no '{name}'{hint}")
+
+
+def _check_curve(curve: ReferenceCurve, signals: tuple[str, ...]) -> None:
+    if len(curve.columns) != len(signals):
+        raise MeasureError(f"a curve needs a column for each signal (got {len(curve.columns)} for {len(signals)})")
+    if len(curve.values) != len(curve.columns):
+        raise MeasureError("a curve needs either a 'file', or 'phases' and for each column a list in 'values'")
+    if len(curve.phases) < FEWEST_PHASES or any(len(values) != len(curve.phases) for values in curve.values):
+        raise MeasureError(f"a curve needs at least {FEWEST_PHASES} phases, and a value for each")
+    if not all(0.0 <= phase <= 100.0 for phase in curve.phases):
+        raise MeasureError("the phases of a curve must lie between 0 and 100 percent")
 
 
 def _names(choice: str) -> set[str]:

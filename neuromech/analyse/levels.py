@@ -82,8 +82,16 @@ def rms_difference(view: View) -> float:
 def correlation(view: View) -> float:
     """Return Pearson's correlation of `signal` and `reference` at the sample times of `signal`, in −1…1."""
     seen = view.signal()
-    other = view.reference().at(seen.time)
-    deviations = (seen.values - seen.values.mean(), other - other.mean())
+    return pearson(seen.values, view.reference().at(seen.time))
+
+
+def pearson(first: Array, second: Array) -> float:
+    """Return Pearson's correlation of two sequences of one length, in −1…1.
+
+    Raises:
+        NotMeasurableError: one of them is constant.
+    """
+    deviations = first - first.mean(), second - second.mean()
     norm = float(np.linalg.norm(deviations[0]) * np.linalg.norm(deviations[1]))
     if norm == 0.0:
         raise NotMeasurableError("a constant signal has no correlation")

@@ -33,6 +33,14 @@ def speed(view: View) -> float:
     return float((seen.values[-1] - seen.values[0]) / (seen.time[-1] - seen.time[0]))
 
 
+def froude_number(view: View) -> float:
+    """Return v² / (g L) of the speed v of `segment` along `axis` and `leg_length` L.
+
+    Alexander & Jayes 1983, doi:10.1111/j.1469-7998.1983.tb04266.x.
+    """
+    return speed(view) ** 2 / (view.gravity() * view.number("leg_length"))
+
+
 def travel_direction(view: View) -> float:
     """Return the direction of the way of `segment` from first to last sample, atan2(Δy, Δx) in −π…π (rad).
 

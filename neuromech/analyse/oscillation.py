@@ -28,7 +28,7 @@ def cycles_of(view: View, seen: Window) -> Cycles:
 
 
 def reference_cycles(view: View) -> Cycles:
-    """Return the cycles that a measure refers to: strides of the first of its `feet`, or cycles of its `reference`.
+    """Return the cycles that a measure refers to: strides of the foot in its `feet`, or cycles of its `reference`.
 
     Raises:
         MeasureError: neither is given, or as for `cycles_of` and `footfalls`.
@@ -61,7 +61,7 @@ def rhythm(view: View) -> str:
 def center(view: View) -> float:
     """Return the centre of oscillation: (max + min) / 2 in each cycle, averaged over cycles; unit of the signal.
 
-    Cycles are the strides of the first of `feet` or the cycles of `reference` where one is given, else those of
+    Cycles are the strides of the foot in `feet` or the cycles of `reference` where one is given, else those of
     `signal` itself.
     """
     found = _extremes_by_cycle(view)

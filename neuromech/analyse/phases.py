@@ -72,7 +72,7 @@ def center_phase(reference: Cycles, seen: Window) -> float:
 
 
 def phase(view: View) -> float:
-    """Return the phase of `signal` in the cycle of `reference` or the stride of the first of `feet`, in 0…1.
+    """Return the phase of `signal` in the cycle of `reference` or the stride of the foot in `feet`, in 0…1.
 
     Circular mean over cycles.
 
@@ -85,7 +85,7 @@ def phase(view: View) -> float:
 def phase_order(view: View) -> str:
     """Return `signals` in the order of their activity centres after the onset of a cycle: `PFlo < PFsw < PFtd`.
 
-    Cycles are those of `reference`, or the strides of the first of `feet`.
+    Cycles are those of `reference`, or the strides of the foot in `feet`.
     """
     reference = reference_cycles(view)
     seen = view.signals()

@@ -5,7 +5,8 @@ from collections.abc import Callable
 import numpy as np
 
 from neuromech.analyse.contacts import Strides, footfalls
-from neuromech.analyse.windows import Array, View
+from neuromech.analyse.oscillation import cycles_of
+from neuromech.analyse.windows import Array, NotMeasurableError, View, Window
 
 
 def cycle_duration(view: View) -> float:
@@ -34,6 +35,59 @@ def duty_factor(view: View) -> float:
 def touchdowns(view: View) -> float:
     """Return how often the `feet` touch down, all together. Also of a run that ended early, up to its end."""
     return float(sum(len(foot.touchdowns) for foot in footfalls(view)))
+
+
+def double_support_duration(view: View) -> float:
+    """Return the time for which both of two `feet` are loaded, per step (s); a stride has two steps.
+
+    Over the whole strides of the first foot; zero for a gait without double support.
+    """
+    first, second = footfalls(view)
+    onsets = first.strides().cycles.onsets
+    second.strides()
+    own, other = (np.clip(foot.contacts, onsets[0], onsets[-1]) for foot in (first, second))
+    starts, ends = np.maximum.outer(own[:, 0], other[:, 0]), np.minimum.outer(own[:, 1], other[:, 1])
+    return float(np.sum(np.maximum(ends - starts, 0.0)) / (2.0 * (len(onsets) - 1)))
+
+
+def stance_asymmetry(view: View) -> float:
+    """Return |a − b| / ((a + b) / 2) of the median stance durations of two `feet`: 0 where they are equal, at most 2.
+
+    The symmetry index of Robinson, Herzog & Nigg 1987, J. Manipulative Physiol. Ther. 10:172–176, as a fraction.
+    """
+    first, second = (float(np.median(foot.strides().stances)) for foot in footfalls(view))
+    return abs(first - second) / (0.5 * (first + second))
+
+
+def period_ratio(view: View) -> float:
+    """Return the period of the first of two `feet` or `signals` over that of the second, 1 where they are locked."""
+    if view.spec.feet is not None:
+        first, second = (foot.strides().cycles for foot in footfalls(view))
+    else:
+        first, second = (cycles_of(view, signal) for signal in view.signals())
+    return first.period / second.period
+
+
+def touchdowns_per_cycle(view: View) -> float:
+    """Return how often each of the `feet` touches down in a cycle of `reference`, in the mean; 1 in a regular gait."""
+    reference = cycles_of(view, view.reference())
+    feet = footfalls(view)
+    count = sum(len(reference.phases(foot.touchdowns)[0]) for foot in feet)
+    return count / (len(reference.durations) * len(feet))
+
+
+def fraction_in_stance(view: View) -> float:
+    """Return the part of the activity of `signal` that falls in the stance of the foot in `feet`, in 0…1.
+
+    ∫ a dt while the foot is loaded over ∫ a dt, by the trapezoidal rule; a is what `signal` is above zero.
+    """
+    seen = view.signal()
+    active = Window(seen.name, seen.time, np.maximum(seen.values, 0.0), seen.unit)
+    total = float(active.integral(seen.time[-1:])[0])
+    if total == 0.0:
+        raise NotMeasurableError(f"{seen.name} is never active")
+    contacts = footfalls(view)[0].contacts
+    return float(np.sum(active.integral(contacts[:, 1]) - active.integral(contacts[:, 0]))) / total
 
 
 def _mean_over_feet(view: View, of: Callable[[Strides], Array]) -> float:

@@ -9,7 +9,7 @@ from pydantic_core import PydanticCustomError
 
 from neuromech.errors import MeasureError
 from neuromech.simulate.recording import Recording
-from neuromech.spec.measure import Measure
+from neuromech.spec.measure import MUSCLE_SIGNALS, Measure, ReferenceCurve
 from neuromech.units import Unit, unit_factor
 
 Array = NDArray[np.float64]
@@ -27,6 +27,15 @@ class Window:
     time: Array
     values: Array
     unit: str
+
+    def integral(self, time: Array) -> Array:
+        """Return ∫ x dt from the start of the window to other times in it, by the trapezoidal rule."""
+        step = np.diff(self.time)
+        total = np.concatenate(([0.0], np.cumsum(0.5 * (self.values[1:] + self.values[:-1]) * step)))
+        index = np.clip(np.searchsorted(self.time, time, side="right") - 1, 0, len(step) - 1)
+        rest = time - self.time[index]
+        slope = (self.values[index + 1] - self.values[index]) / step[index]
+        return np.asarray(total[index] + rest * (self.values[index] + 0.5 * slope * rest))
 
     def at(self, time: Array) -> Array:
         """Return the values at other times, linearly interpolated."""
@@ -111,8 +120,30 @@ class View:
         limbs = dict.fromkeys(name.rpartition(".")[0].rpartition(".")[0] for name in names)
         if len(limbs) > 1:
             raise MeasureError(f"'{foot}' must be the contacts of one foot (got those of {', '.join(limbs)})")
-        first, *others = [self.window(name) for name in names]
-        return first.time, sum((other.at(first.time) for other in others), first.values)
+        return _added([self.window(name) for name in names])
+
+    def place(self, foot: str) -> tuple[Array, Array]:
+        """Return times (s) and position (m) of a foot along `axis`, the mean of its contacts, shape (n,) each.
+
+        Raises:
+            NotMeasurableError: as for `window`.
+        """
+        names = self._expand(f"{foot}.{self.spec.axis}")
+        time, total = _added([self.window(name) for name in names])
+        return time, total / len(names)
+
+    def muscles(self) -> list[str]:
+        """Return the names of the measure's `muscles`, in recorded order."""
+        if self.spec.muscles is None:
+            raise MeasureError(f"measure '{self.spec.kind}' needs 'muscles'")
+        found = [name for muscle in self.spec.muscles for name in self._expand(f"{muscle}.{MUSCLE_SIGNALS[0]}")]
+        return [name.rpartition(".")[0] for name in dict.fromkeys(found)]
+
+    def curve(self) -> ReferenceCurve:
+        """Return the measure's `curve`."""
+        if self.spec.curve is None:
+            raise MeasureError(f"measure '{self.spec.kind}' needs 'curve'")
+        return self.spec.curve
 
     def coordinate(self, quantity: str) -> str:
         """Return the name of a signal of the measure's `segment`."""
@@ -125,11 +156,22 @@ class View:
             raise MeasureError(f"measure '{self.spec.kind}' needs a body with weight")
         return weight
 
+    def gravity(self) -> float:
+        """Return the gravitational acceleration (m/s²)."""
+        gravity = self.recording.provenance.anatomy.gravity
+        if gravity == 0.0:
+            raise MeasureError(f"measure '{self.spec.kind}' needs gravity")
+        return gravity
+
     def argument(self, name: Literal["level", "least_amplitude", "tolerance"], unit: str) -> float:
         """Return an argument of the measure as a number of `unit`."""
         return in_unit(self._need(name), unit, name.replace("_", " "))
 
-    def _need(self, name: Literal["signal", "reference", "level", "least_amplitude", "tolerance", "segment"]) -> str:
+    def number(self, name: Literal["leg_length", "perturbed_at"]) -> float:
+        """Return an argument of the measure that has a unit of its own, in SI units."""
+        return float(self._need(name))
+
+    def _need(self, name: str) -> str:
         value = getattr(self.spec, name)
         if value is None:
             raise MeasureError(f"measure '{self.spec.kind}' needs '{name}'")
@@ -142,6 +184,11 @@ class View:
         if not found:
             raise MeasureError(f"no recorded signal matches '{pattern}'")
         return found
+
+
+def _added(windows: list[Window]) -> tuple[Array, Array]:
+    first, *others = windows
+    return first.time, sum((other.at(first.time) for other in others), first.values)
 
 
 def in_unit(value: str | int | float, unit: str, what: str) -> float:

@@ -6,6 +6,7 @@ from pathlib import Path
 
 from neuromech.components.catalogue import Catalogue
 from neuromech.errors import Problem, did_you_mean
+from neuromech.spec.curves import fill_curves
 from neuromech.spec.includes import Composed
 from neuromech.spec.instances import Expander
 from neuromech.spec.model import Instance
@@ -50,7 +51,8 @@ def resolve(composed: Composed, overrides: Sequence[str], catalogue: Catalogue) 
     for name in sorted(modules.keys() - expander.used):
         problems.extend(_unknown_keys(modules[name], catalogue))
     asked = frozenset((*references(expanded), *_asked_by(modules)))
-    return Resolved(fill_parameters(expanded, problems), composed.files, asked, overridden.through, tuple(problems))
+    filled = fill_curves(fill_parameters(expanded, problems), composed.files[0], problems)
+    return Resolved(filled, composed.files, asked, overridden.through, tuple(problems))
 
 
 def _check_schema_key(tree: MapNode, problems: list[Problem]) -> None:

@@ -9,7 +9,6 @@ from neuromech.compiler.rebind import fixed_uses, rebound
 from neuromech.components.catalogue import Catalogue
 from neuromech.graph.build import build
 from neuromech.graph.check import check
-from neuromech.graph.checks.signals import patterns
 from neuromech.graph.model import ModelGraph
 from neuromech.graph.signals import matching
 from neuromech.spec.includes import Composed
@@ -71,7 +70,7 @@ def recording_only(graph: ModelGraph, measures: Iterable[Measure]) -> ModelGraph
         name
         for some in names.values()
         for measure in measures
-        for _, pattern in patterns(measure)
+        for _, pattern in measure.patterns()
         for name in matching(pattern, some)
     }
     record = {

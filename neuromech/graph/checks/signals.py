@@ -29,7 +29,7 @@ def measure_of_unrecorded(graph: ModelGraph) -> Iterator[Problem]:
     groups = graph.document.experiment.record.values()
     recorded = [name for group in groups for pattern in group.signals for name in matching(pattern, every, populations)]
     for place, measure in _measures(graph.document.experiment):
-        for path, pattern in patterns(measure):
+        for path, pattern in measure.patterns():
             if not matching(pattern, recorded):
                 hint = "record it" if matching(pattern, every, populations) else _closest(pattern, recorded)
                 message = "matches no recorded signal"
@@ -81,20 +81,6 @@ def _unit_problems(graph: ModelGraph, path: str, values: tuple[object, ...], uni
             context = error.context or {}
             yield graph.document.problem(error.type, path, error.message(), context.get("got"), context.get("hint"))
             return
-
-
-def patterns(measure: Measure) -> Iterator[tuple[str, str]]:
-    """Yield (key, pattern) of the signals that a measure names."""
-    for field in ("signal", "reference"):
-        pattern = getattr(measure, field)
-        if pattern is not None:
-            yield field, pattern
-    for index, pattern in enumerate(measure.signals or ()):
-        yield f"signals.{index}", pattern
-    for index, foot in enumerate(measure.feet or ()):
-        yield f"feet.{index}", f"{foot}.force_z"
-    if measure.segment is not None:
-        yield "segment", f"{measure.segment}.*"
 
 
 def _closest(pattern: str, names: Iterable[str]) -> str:

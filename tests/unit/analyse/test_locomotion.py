@@ -6,6 +6,7 @@ import pytest
 from neuromech.analyse.measures import MeasuredValue, measure
 from neuromech.analyse.table import MEASURES
 from neuromech.errors import MeasureError
+from neuromech.simulate.anatomy import Anatomy
 from neuromech.simulate.recording import Outcome
 from neuromech.spec.measure import Measure
 
@@ -36,6 +37,14 @@ def test_distance_and_speed_along_an_axis(walk):
     assert take(recording, kind="distance", segment="trunk") == MeasuredValue(pytest.approx(3.0), "m")
     assert take(recording, kind="distance", segment="trunk", axis="y", after="1 s").value == pytest.approx(-0.4)
     assert take(recording, kind="speed", segment="trunk", after="2 s") == MeasuredValue(pytest.approx(0.6), "m/s")
+
+
+def test_froude_number(walk):
+    recording = walk(anatomy=Anatomy(6.0, 9.81, {}))
+    found = take(recording, kind="froude_number", segment="trunk", leg_length="200 mm")
+    assert found == MeasuredValue(pytest.approx(0.36 / (9.81 * 0.2)), "")
+    with pytest.raises(MeasureError, match="needs gravity"):
+        take(walk(), kind="froude_number", segment="trunk", leg_length="200 mm")
 
 
 def test_direction_of_the_way(walk, record, time):
@@ -77,7 +86,7 @@ def test_a_run_that_fell_before_the_window_has_no_distance(walk, record, time):
 
 def test_kinds_of_early_ends_are_those_that_say_so():
     partial = {name for name, kind in MEASURES.items() if kind.of_early_end}
-    assert partial == {"outcome", "time_alive", "distance", "speed", "touchdowns"}
+    assert partial == {"outcome", "time_alive", "distance", "speed", "froude_number", "touchdowns", "metabolic_energy"}
 
 
 @pytest.mark.parametrize(

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from neuromech.analyse.contacts import footfalls
+from neuromech.analyse.forces import filtered
 from neuromech.analyse.measures import MeasuredValue, measure
 from neuromech.analyse.phases import circular_distance
 from neuromech.analyse.windows import View
@@ -150,3 +151,85 @@ def test_cycles_of_feet_serve_other_measures(record, burst, time):
     assert take(recording, kind="cycle_range", **hip) == MeasuredValue(pytest.approx(span, abs=1e-4), "rad")
     found = take(recording, kind="phase", event="center", signal="LF.RG-F.activity", **of("LF")).value
     assert circular_distance(found, 0.7 - edges()[0]) < 1e-4
+
+
+@pytest.mark.parametrize("duty", [0.4, 0.62, 0.8])
+def test_double_support_of_two_feet_in_antiphase(feet, duty):
+    rise, fall = edges(duty=duty)
+    expected = max(0.0, (fall - rise - 0.5) * PERIOD)
+    found = take(feet(duty=duty), kind="double_support_duration", **of("LF", "RF"))
+    assert found == MeasuredValue(pytest.approx(expected, abs=5e-5), "s")
+
+
+def test_asymmetry_of_stance(record, burst):
+    recording = record(
+        {f"{leg}.foot.force_z": (burst(PERIOD, 0.0, duty, PEAK), "N") for leg, duty in (("L", 0.5), ("R", 0.7))}
+    )
+    left, right = (np.subtract(*edges(duty=duty)[::-1]) for duty in (0.5, 0.7))
+    expected = (right - left) / ((right + left) / 2.0)
+    assert take(recording, kind="stance_asymmetry", **of("L", "R")).value == pytest.approx(expected, abs=1e-3)
+    assert take(recording, kind="stance_asymmetry", **of("L", "L")).value == 0.0
+
+
+def test_ratio_of_periods(record, burst):
+    recording = record(
+        {
+            "F.foot.force_z": (burst(0.3, 0.0, DUTY, PEAK), "N"),
+            "H.foot.force_z": (burst(0.45, 0.0, DUTY, PEAK), "N"),
+            "RG.activity": burst(0.6),
+        }
+    )
+    assert take(recording, kind="period_ratio", **of("F", "H")).value == pytest.approx(2.0 / 3.0, abs=1e-4)
+    neural = take(recording, kind="period_ratio", signals=["RG.activity", "F.foot.force_z"])
+    assert neural == MeasuredValue(pytest.approx(2.0, abs=1e-3), "")
+    with pytest.raises(MeasureError, match="takes the names of signals, not patterns"):
+        take(recording, kind="period_ratio", signals=["*.activity", "RG.activity"])
+    with pytest.raises(MeasureError, match=r"takes 2 signals \(got 1\)"):
+        take(recording, kind="period_ratio", signals=["RG.activity"])
+
+
+def test_touchdowns_per_cycle_of_the_network(record, burst):
+    signals = {"RG.activity": burst(0.4), "L.foot.force_z": (burst(0.4, 0.3, 0.5, PEAK), "N")}
+    signals["R.foot.force_z"] = (burst(0.2, 0.3, 0.5, PEAK), "N")
+    recording = record(signals)
+    regular = take(recording, kind="touchdowns_per_cycle", reference="RG.activity", **of("L"))
+    assert regular == MeasuredValue(1.0, "")
+    assert take(recording, kind="touchdowns_per_cycle", reference="RG.activity", **of("L", "R")).value == 1.5
+
+
+def test_part_of_the_activity_in_stance(record, burst, time):
+    load = np.where((time / 0.5) % 1.0 < 0.6, PEAK, 0.0)
+    ramp = (time / 0.5) % 1.0 - 0.2  # below zero it is no activity
+    recording = record({"L.foot.force_z": (load, "N"), "RG.activity": ramp, "Mn.activity": 0.0 * time})
+    found = take(recording, kind="fraction_in_stance", signal="RG.activity", **of("L"))
+    assert found == MeasuredValue(pytest.approx(0.4**2 / 0.8**2, abs=2e-3), "")
+    silent = take(recording, kind="fraction_in_stance", signal="Mn.activity", **of("L"))
+    assert silent.value == "Mn.activity is never active"
+
+
+def test_peak_of_a_constant_load_after_the_filter(record, time):
+    stance = 0.3
+    load = np.where((time / 0.5) % 1.0 < stance / 0.5, 90.0, 0.0)
+    recording = record({"L.foot.force_z": (load, "N")}, anatomy=CAT)
+    expected = 90.0 * (1.0 - np.exp(-100.0 * stance)) / CAT.weight
+    assert take(recording, kind="ground_reaction_peak", feet=["L.foot"]) == MeasuredValue(
+        pytest.approx(expected, rel=1e-3), ""
+    )
+
+
+def test_the_filter_is_exact_for_a_ramp():
+    time = np.arange(0.0, 0.1, 1e-3)
+    slope = 3000.0
+    exact = slope * (time - (1.0 - np.exp(-100.0 * time)) / 100.0)
+    assert filtered(time, slope * time) == pytest.approx(exact, abs=1e-9)
+    assert filtered(time, np.full_like(time, 7.0)) == pytest.approx(7.0)
+
+
+def test_a_load_with_two_humps_has_two_peaks(record, time):
+    phase = (time / 1.0) % 1.0
+    slow = np.where(phase < 0.6, 800.0 + 100.0 * np.sin(2 * np.pi * phase / 0.6), 0.0)
+    recording = record({"L.foot.force_z": (slow, "N")}, anatomy=Anatomy(80.0, 9.81, {}))
+    first, second = (take(recording, kind=kind, feet=["L.foot"]).value for kind in ("loading_peak", "push_off_peak"))
+    gain = 1.0 / np.sqrt(1.0 + (2 * np.pi / 0.6 / 100.0) ** 2)
+    assert first * 80.0 * 9.81 == pytest.approx(800.0 + 100.0 * gain, rel=2e-3)
+    assert second < first - 0.05
