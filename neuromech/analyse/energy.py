@@ -10,8 +10,6 @@ from neuromech.analyse.windows import Array, NotMeasurableError, View
 from neuromech.errors import MeasureError
 from neuromech.spec.measure import MUSCLE_SIGNALS
 
-_PARAMETERS = ("optimal_length", "mass", "slow_fraction")
-
 
 def metabolic_energy(view: View) -> float:
     """Return what the `muscles` use in the window (J), ∫ Σ (A + M + S + W) dt by the trapezoidal rule.
@@ -54,12 +52,12 @@ def cost_of_transport(view: View) -> float:
 
 def _length_factor_of_wang(length: Array) -> Array:
     """Return g (Wang et al. 2012): 0.5 up to half the optimal length, then l, then 3 − 2 l, and 0 from 1.5 on."""
-    return np.interp(length, [0.5, 1.0, 1.5], [0.5, 1.0, 0.0])
+    return np.maximum(0.0, np.minimum(np.maximum(0.5, length), 3.0 - 2.0 * length))
 
 
 def _length_factor_of_dzeladini(length: Array) -> Array:
     """Return g as Dzeladini 2013 eq. 2.43 prints it, with a step from 0.5 to 1 at half the optimal length."""
-    return np.where(length <= 0.5, 0.5, np.interp(length, [1.0, 1.5], [1.0, 0.0]))
+    return np.where(length <= 0.5, 0.5, np.clip(3.0 - 2.0 * length, 0.0, 1.0))
 
 
 _LENGTH_FACTORS: Mapping[str, Callable[[Array], Array]] = MappingProxyType(
@@ -69,31 +67,35 @@ _LENGTH_FACTORS: Mapping[str, Callable[[Array], Array]] = MappingProxyType(
 
 def _power(view: View) -> tuple[Array, Array]:
     """Return times (s) and the power (W) of all muscles, shape (n,) each."""
-    names = view.muscles()
-    optimal_length, mass, slow = (_parameter(view, names, parameter) for parameter in _PARAMETERS)
-    time = view.window(f"{names[0]}.{MUSCLE_SIGNALS[0]}").time
-    signals = (_stacked(view, names, quantity, time) for quantity in MUSCLE_SIGNALS)
-    stimulation, activation, length, velocity, active, force = signals
-    heat = 40.0 * slow * np.sin(0.5 * np.pi * stimulation)
-    heat += 133.0 * (1.0 - slow) * (1.0 - np.cos(0.5 * np.pi * stimulation))
-    maintenance = 74.0 * slow * np.sin(0.5 * np.pi * activation)
-    maintenance += 111.0 * (1.0 - slow) * (1.0 - np.cos(0.5 * np.pi * activation))
-    heat += _LENGTH_FACTORS[view.spec.maintenance](length / optimal_length) * maintenance
-    shortening = np.maximum(0.0, -velocity)
-    return time, np.sum(mass * heat + (0.25 * force + active) * shortening, axis=1)
+    first, *others = view.muscles()
+    time, total = _power_of(view, first)
+    for name in others:
+        own_time, power = _power_of(view, name)
+        total = total + np.interp(time, own_time, power)
+    return time, total
 
 
-def _stacked(view: View, names: list[str], quantity: str, time: Array) -> Array:
-    """Return one quantity of all muscles at some times, shape (n, muscles)."""
-    windows = [view.window(f"{name}.{quantity}") for name in names]
-    same = all(len(window.time) == len(time) and window.time[0] == time[0] for window in windows)
-    return np.column_stack([window.values if same else window.at(time) for window in windows])
+def _power_of(view: View, name: str) -> tuple[Array, Array]:
+    """Return times (s) and the power (W) of one muscle, shape (n,) each."""
+    windows = [view.window(f"{name}.{quantity}") for quantity in MUSCLE_SIGNALS]
+    time = windows[0].time
+    stimulation, activation, length, velocity, active, force = (window.at(time) for window in windows)
+    mass, slow = _parameter(view, name, "mass"), _parameter(view, name, "slow_fraction")
+    heat = _heat(40.0 * slow, 133.0 * (1.0 - slow), stimulation)
+    factor = _LENGTH_FACTORS[view.spec.maintenance](length / _parameter(view, name, "optimal_length"))
+    heat += factor * _heat(74.0 * slow, 111.0 * (1.0 - slow), activation)
+    return time, mass * heat + (0.25 * force + active) * np.maximum(0.0, -velocity)
 
 
-def _parameter(view: View, names: list[str], parameter: str) -> Array:
-    """Return one parameter of all muscles, shape (muscles,)."""
-    known = view.recording.provenance.anatomy.muscles
-    for name in names:
-        if parameter not in known.get(name, {}):
-            raise MeasureError(f"measure '{view.spec.kind}' needs '{parameter}' of muscle {name}")
-    return np.array([known[name][parameter] for name in names])
+def _heat(slow: float, fast: float, drive: Array) -> Array:
+    """Return the heat rate (W/kg) of slow and fast fibres that are driven by 0…1."""
+    angle = 0.5 * np.pi * drive
+    return slow * np.sin(angle) + fast * (1.0 - np.cos(angle))
+
+
+def _parameter(view: View, name: str, parameter: str) -> float:
+    """Return a parameter of a muscle."""
+    known = view.recording.provenance.anatomy.muscles.get(name, {})
+    if parameter not in known:
+        raise MeasureError(f"measure '{view.spec.kind}' needs '{parameter}' of muscle {name}")
+    return known[parameter]

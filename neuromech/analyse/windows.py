@@ -39,7 +39,7 @@ class Window:
 
     def at(self, time: Array) -> Array:
         """Return the values at other times, linearly interpolated."""
-        return np.interp(time, self.time, self.values)
+        return self.values if time is self.time else np.interp(time, self.time, self.values)
 
     def mean(self) -> float:
         """Return the time average, by the trapezoidal rule."""
@@ -95,10 +95,10 @@ class View:
             NotMeasurableError: fewer than two samples are left, or a value is not finite.
         """
         time, values = self.recording.signal(name)
-        chosen = time >= self.spec.after
-        if self.spec.until is not None:
-            chosen &= time <= self.spec.until
-        if np.count_nonzero(chosen) < 2:
+        start = int(np.searchsorted(time, float(self.spec.after)))
+        end = len(time) if self.spec.until is None else int(np.searchsorted(time, float(self.spec.until), side="right"))
+        chosen = slice(start, end)
+        if end - start < 2:
             raise NotMeasurableError(f"the run ended at {self.recording.outcome.time:g} s, before there was a signal")
         if not np.all(np.isfinite(values[chosen])):
             raise NotMeasurableError(f"{name} is not finite")

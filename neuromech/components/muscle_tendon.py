@@ -6,9 +6,11 @@ Forces of the functions below are in units of the maximal isometric force.
 from math import ceil, exp, log
 from typing import Annotated, ClassVar, Literal
 
+from pydantic import Field
+
 from neuromech.components.base import Muscle, Port, Reference, State
 from neuromech.components.paths import MusclePath
-from neuromech.units import DIMENSIONLESS, FORCE, LENGTH, RATE, TIME, Quantity, quantity
+from neuromech.units import DIMENSIONLESS, FORCE, LENGTH, MASS, RATE, TIME, Quantity, quantity
 
 # Eccentric part of the force–velocity relation: the curvature of the concentric part is multiplied by this.
 _ECCENTRIC_CURVATURE = 7.56
@@ -125,6 +127,15 @@ class MuscleTendonUnit(Muscle):
     tendon_reference_strain: Annotated[Quantity, DIMENSIONLESS.positive] = quantity("0.04")
     activation_time_constant: Annotated[Quantity, TIME.positive] = quantity("10 ms")
     initial_activation: Annotated[Quantity, DIMENSIONLESS.within(0.0, 1.0)] = quantity("0.01")
+    mass: Annotated[Quantity, MASS.positive, Field(description="of the muscle, for its metabolic energy")] | None = None
+    slow_fraction: (
+        Annotated[
+            Quantity,
+            DIMENSIONLESS.within(0.0, 1.0),
+            Field(description="part of its fibres that is slow (type I), for its metabolic energy"),
+        ]
+        | None
+    ) = None
 
     @staticmethod
     def output(
