@@ -1,9 +1,15 @@
-"""Writing files so that a reader, or a user who interrupts, never meets half of one."""
+"""Names of folders, and writing files so that a reader, or a user who interrupts, never meets half of one."""
 
 import os
+import re
 import tempfile
 from collections.abc import Callable
 from pathlib import Path
+
+
+def folder_name(name: str) -> str:
+    """Return the name of a document without what is special in a path."""
+    return re.sub(r"[^\w+-]+", "_", name)
 
 
 def write_text(file: Path, text: str) -> None:

@@ -10,7 +10,7 @@ from typing import Annotated
 import typer
 
 from neuromech.cli.problems import Format
-from neuromech.cli.terminal import exits, keep_stdout_for_results, report_bug, without_banners, write_line
+from neuromech.cli.terminal import exits, keep_stdout_for_results, of_extra, report_bug, without_banners, write_line
 
 Spec = Annotated[Path, typer.Argument(metavar="SPEC", help="A document.")]
 Paths = Annotated[list[Path], typer.Argument(metavar="PATH…", help="Documents, or folders of documents.")]
@@ -19,6 +19,8 @@ Overrides = Annotated[
 ]
 Output = Annotated[Path | None, typer.Option(metavar="FILE", help="Where to write; default: stdout.")]
 AsJson = Annotated[bool, typer.Option("--json", help="Write JSON to stdout instead of a table.")]
+Storage = Annotated[str, typer.Argument(metavar="STORAGE", help="Database of a study: a file or a URL.")]
+StudyName = Annotated[str | None, typer.Option("--name", help="Which study, where the database has several.")]
 Seeds = Annotated[int | None, typer.Option(min=1, help="Repeat each claim over this many seeds.")]
 
 app = typer.Typer(
@@ -180,6 +182,81 @@ def new(
     from neuromech.cli.new import new
 
     return new(name, base)
+
+
+@app.command()
+@exits
+def optimize(
+    spec: Spec,
+    evaluations: Annotated[
+        int | None, typer.Option(min=1, help="Evaluate this many candidates; default: what the document says.")
+    ] = None,
+    seed: Annotated[
+        int | None, typer.Option(min=0, help="Seed of the search; default: what the document says.")
+    ] = None,
+    storage: Annotated[
+        str | None, typer.Option(metavar="URL", help="Database: a file or a URL; default: results/<name>/study.db.")
+    ] = None,
+    name: Annotated[str | None, typer.Option(help="Name of the study; default: that of the document.")] = None,
+    resume: Annotated[bool, typer.Option("--resume", help="Go on with a study; begin it where there is none.")] = False,
+    workers: Annotated[int | None, typer.Option(min=1, help="Processes on this machine; default: all cores.")] = None,
+    dask: Annotated[
+        str | None, typer.Option(metavar="ADDRESS", help="Evaluate on the cluster of this Dask scheduler.")
+    ] = None,
+    write: Annotated[Path | None, typer.Option(metavar="FILE", help="Write the best candidate to a document.")] = None,
+    quiet: Annotated[bool, typer.Option("--quiet", help="No progress.")] = False,
+) -> int:
+    """Search the parameters of a document as its section 'study' says.
+
+    Whatever ends it, --resume goes on as if nothing had happened. Ctrl-C completes the evaluations under way first.
+    """
+    with without_banners(), of_extra("study"):
+        from neuromech.cli.optimize import Request, optimize
+
+    return optimize(Request(spec, evaluations, seed, storage, name, resume, workers, dask, write, quiet))
+
+
+study_app = typer.Typer(help="Look at studies.", no_args_is_help=True, rich_markup_mode=None)
+app.add_typer(study_app, name="study")
+
+
+@study_app.command()
+@exits
+def show(
+    storage: Storage,
+    name: StudyName = None,
+    as_json: AsJson = False,
+    figure: Annotated[Path | None, typer.Option(metavar="FILE", help="Draw the convergence (.png or .svg).")] = None,
+) -> int:
+    """Show how far a study is: best, median, history, and what failed."""
+    with of_extra("study"):
+        from neuromech.cli.study import show
+
+    return show(storage, name, as_json, figure)
+
+
+@study_app.command()
+@exits
+def best(storage: Storage, name: StudyName = None, as_json: AsJson = False) -> int:
+    """Show the parameters and the measures of the best candidate."""
+    with of_extra("study"):
+        from neuromech.cli.study import best
+
+    return best(storage, name, as_json)
+
+
+@study_app.command()
+@exits
+def export(
+    storage: Storage,
+    file: Annotated[Path, typer.Argument(metavar="FILE", help="To write: .csv, .parquet or .nc.")],
+    name: StudyName = None,
+) -> int:
+    """Write every evaluation of a study to a table."""
+    with of_extra("study"):
+        from neuromech.cli.study import export
+
+    return export(storage, file, name)
 
 
 @app.command()

@@ -1,7 +1,6 @@
 """`neuromech run`: one run of one document, with its results file, figures, summary and claims."""
 
 import os
-import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -12,6 +11,7 @@ from rich.text import Text
 
 from neuromech.analyse.claims import Verdict
 from neuromech.cli.consoles import notes
+from neuromech.cli.files import folder_name
 from neuromech.cli.progress import simulated_time
 from neuromech.cli.terminal import CLAIM_NOT_MET, ENDED_EARLY, FINISHED, note, write_json
 from neuromech.cli.verdicts import claims_table
@@ -70,7 +70,7 @@ def run(request: Request) -> int:
     document = load_document(request.spec, request.overrides)
     check_claims(document)
     program = lower(build_graph(document))
-    folder = _writable(request.out or Path("results") / _folder_name(document.experiment.name))
+    folder = _writable(request.out or Path("results") / folder_name(document.experiment.name))
     recording = _simulated(program, request, duration)
     files = _write(recording, folder, request.figures)
     verdicts = judge_run(document, recording) if _is_complete(recording, request) else []
@@ -117,11 +117,6 @@ def _duration(text: str | None) -> float | None:
     except PydanticCustomError as error:
         hint = "write for example --duration '5 s'"
         raise DocumentError([Problem("duration", "--duration", error.message(), repr(text), hint)]) from error
-
-
-def _folder_name(name: str) -> str:
-    """Return the name of a document without what is special in a path."""
-    return re.sub(r"[^\w+-]+", "_", name)
 
 
 def _writable(folder: Path) -> Path:

@@ -11,7 +11,7 @@ from typing import Any, ParamSpec
 
 import typer
 
-from neuromech.errors import DocumentError, NeuromechError
+from neuromech.errors import DocumentError, MissingExtraError, NeuromechError
 
 FINISHED = 0
 BUG = 1
@@ -66,6 +66,22 @@ def without_banners() -> Iterator[None]:
         os.dup2(own, 2)
         os.close(own)
         os.close(null)
+
+
+@contextmanager
+def of_extra(extra: str) -> Iterator[None]:
+    """Say which extra to install where an import in the block finds a package missing.
+
+    Raises:
+        MissingExtraError: a package that is not ours is not installed.
+    """
+    try:
+        yield
+    except ModuleNotFoundError as error:
+        package = (error.name or "").partition(".")[0]
+        if package == "neuromech":
+            raise
+        raise MissingExtraError(package, extra) from error
 
 
 def complain(text: str) -> None:

@@ -1,11 +1,12 @@
 """The studies in one database: a SQLite file, or a PostgreSQL server."""
 
+import sqlite3
 from collections.abc import Iterator
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 from typing import Any
 
-import sqlalchemy
 from optuna.exceptions import DuplicatedStudyError
 from optuna.logging import WARNING, set_verbosity
 from optuna.storages import RDBStorage
@@ -41,11 +42,7 @@ class Database:
         if self._is_file and not (create or Path(self._url.database or "").is_file()):
             raise StudyError(f"{self.shown}: there is no such file. Hint: give the storage of 'neuromech optimize'")
         with _connecting(self.shown):
-            arguments = {"timeout": LOCK_SECONDS} if self._is_file else {"connect_timeout": CONNECTION_SECONDS}
-            url = self._url.render_as_string(hide_password=False)
-            self._storage = RDBStorage(url, {"connect_args": arguments})
-            if self._is_file:
-                _write_ahead(self._storage)
+            self._storage = RDBStorage(self._url.render_as_string(hide_password=False), self._engine_arguments())
 
     @property
     def shown(self) -> str:
@@ -94,6 +91,11 @@ class Database:
             header = Header.from_dict(self._storage.get_study_user_attrs(number)[HEADER])
             return StoredStudy(self._storage, self.shown, number, header)
 
+    def _engine_arguments(self) -> dict[str, Any]:
+        if self._is_file:
+            return {"creator": partial(_file, self._url.database or "")}
+        return {"connect_args": {"connect_timeout": CONNECTION_SECONDS}}
+
     @property
     def _is_file(self) -> bool:
         return self._url.get_backend_name() == "sqlite"
@@ -110,16 +112,15 @@ def _url(place: str) -> URL:
     return url.set(drivername="postgresql+psycopg") if url.drivername in ("postgres", "postgresql") else url
 
 
-def _write_ahead(storage: RDBStorage) -> None:
-    """Let readers in while we write, and wait for the disk rarely: what a killed process stored is safe either way."""
+def _file(path: str) -> sqlite3.Connection:
+    """Open a SQLite file so that readers are let in while we write, and the disk is rarely waited for.
 
-    def begin(connection: Any, _record: object) -> None:
-        connection.execute("PRAGMA synchronous=NORMAL")
-
-    sqlalchemy.event.listen(storage.engine, "connect", begin)
-    storage.engine.dispose()
-    with storage.engine.connect() as connection:
-        connection.execute(sqlalchemy.text("PRAGMA journal_mode=WAL"))
+    What a killed process stored is safe; a power failure may take back the last evaluations, and harms nothing else.
+    """
+    connection = sqlite3.connect(path, timeout=LOCK_SECONDS, check_same_thread=False)
+    connection.execute("PRAGMA journal_mode=WAL")
+    connection.execute("PRAGMA synchronous=NORMAL")
+    return connection
 
 
 @contextmanager

@@ -88,7 +88,7 @@ class Header:
             found.append(Change("content of body.file", str(self.body)[:12], str(now.body)[:12]))
         return [change for change in found if change.old != change.new]
 
-    def newer_versions(self, now: Self) -> list[Change]:
+    def other_versions(self, now: Self) -> list[Change]:
         """Return the packages that are another version now; numbers may differ in their last bits."""
         pairs = ((name, self.versions.get(name, ABSENT), one) for name, one in now.versions.items())
         return [Change(name, old, new) for name, old, new in pairs if old != new]

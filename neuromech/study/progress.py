@@ -2,7 +2,7 @@
 
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 from neuromech.study.evaluation import Evaluation
 from neuromech.study.score import Score
@@ -58,11 +58,12 @@ class Tally:
     done: int = 0
     crashed: int = 0
     fallen: int = 0
-    _started: float = field(init=False)
+    _started: float = 0.0
     _session: int = 0
     _simulated: float = 0.0
 
-    def __post_init__(self) -> None:
+    def start(self) -> None:
+        """Begin a session: rates are counted from here."""
         self._started = self.clock()
 
     def add(self, evaluation: Evaluation, fresh: bool = True) -> None:

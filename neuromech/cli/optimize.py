@@ -1,0 +1,180 @@
+"""`neuromech optimize`: begin, continue and write back a study."""
+
+import shlex
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+from neuromech.cli.files import folder_name
+from neuromech.cli.interrupt import stop_on_signals
+from neuromech.cli.scores import score_text
+from neuromech.cli.search_progress import search_progress
+from neuromech.cli.terminal import ENDED_EARLY, FINISHED, note, of_extra
+from neuromech.errors import DocumentError, Problem, StudyError
+from neuromech.report.convergence import convergence_figure
+from neuromech.report.layout import save, style
+from neuromech.study.database import Database
+from neuromech.study.driver import Search
+from neuromech.study.evaluate import Evaluator
+from neuromech.study.executors import Executor, ProcessExecutor
+from neuromech.study.history import best_of
+from neuromech.study.plan import Plan
+from neuromech.study.storage import StoredStudy
+from neuromech.study.write_back import write_back
+
+STORAGE_FILE = "study.db"
+FIGURE = "convergence"
+
+
+@dataclass(frozen=True, slots=True)
+class Request:
+    """What the user asked for on the command line; None where the document decides."""
+
+    spec: Path
+    evaluations: int | None
+    seed: int | None
+    storage: str | None
+    name: str | None
+    resume: bool
+    workers: int | None
+    dask: str | None
+    write: Path | None
+    quiet: bool
+
+    def command(self) -> str:
+        """Return the command that goes on with this study."""
+        options = {
+            "--evaluations": self.evaluations,
+            "--seed": self.seed,
+            "--storage": self.storage,
+            "--name": self.name,
+            "--workers": self.workers,
+            "--dask": self.dask,
+            "--write": self.write,
+        }
+        given = [text for option, value in options.items() if value is not None for text in (option, str(value))]
+        return shlex.join(["neuromech", "optimize", str(self.spec), "--resume", *given])
+
+
+@dataclass(frozen=True, slots=True)
+class _Opened:
+    """A study in its database, and what evaluates its candidates."""
+
+    name: str
+    plan: Plan
+    stored: StoredStudy
+    evaluator: Evaluator
+
+
+def optimize(request: Request) -> int:
+    """Search as asked; return the exit code.
+
+    Raises:
+        DocumentError: the document or an argument is wrong.
+        StudyError: the study cannot be begun, continued or stored.
+        RunError: no candidate at all could be simulated.
+        OSError: a file cannot be written.
+    """
+    _check(request)
+    opened = _open(request)
+    with search_progress(opened.plan.header.stages, shown=not request.quiet) as report:
+        search = Search(opened.plan, opened.stored, report)
+        ending = "complete" if search.is_complete else _searched(request, opened, search)
+    _conclude(request, opened, search)
+    done, total = len(search.evaluations), opened.plan.evaluations
+    if ending == "complete":
+        return FINISHED
+    note(f"stopped after {done} of {total} evaluations, all of them stored; to go on: {request.command()}")
+    return ENDED_EARLY
+
+
+def _check(request: Request) -> None:
+    if request.dask is not None and request.workers is not None:
+        message, hint = "goes with '--workers' only on this machine", "the cluster says how many workers it has"
+        raise DocumentError([Problem("two-executors", "--dask", message, hint=hint)])
+
+
+def _open(request: Request) -> _Opened:
+    evaluator = _evaluator(request, request.seed)
+    name = request.name or evaluator.document.experiment.name
+    database = Database(request.storage or _own_file(name))
+    if not request.resume or name not in database.names():
+        plan = Plan.of(evaluator.document)
+        stored = database.create(name, plan.header)
+        note(f"study '{name}' begins in {database.shown}")
+        return _Opened(name, plan, stored, evaluator)
+    stored = database.open(name)
+    if request.seed is None:
+        evaluator = _evaluator(request, stored.header.seed)
+    plan = Plan.of(evaluator.document)
+    _compare(name, stored, plan)
+    return _Opened(name, plan, stored, evaluator)
+
+
+def _evaluator(request: Request, seed: int | None) -> Evaluator:
+    changes = {"study.seed": seed, "study.evaluations": request.evaluations}
+    return Evaluator(request.spec, [f"{path}={value}" for path, value in changes.items() if value is not None])
+
+
+def _own_file(name: str) -> str:
+    folder = Path("results") / folder_name(name)
+    folder.mkdir(parents=True, exist_ok=True)
+    return str(folder / STORAGE_FILE)
+
+
+def _compare(name: str, stored: StoredStudy, plan: Plan) -> None:
+    """Refuse to go on with another document; say where packages are of another version.
+
+    Raises:
+        StudyError: the document has changed.
+    """
+    changes = "\n".join(f"~ {change}" for change in stored.header.changes(plan.header))
+    if changes:
+        hint = "undo the changes, or begin another study with --name or --storage"
+        told = f"{plan.document.file} is not the document any more that study '{name}' was begun with"
+        raise StudyError(f"{told}:\n{changes}\nHint: {hint}")
+    for version in stored.header.other_versions(plan.header):
+        note(f"the version of a package has changed, and numbers may differ in their last bits: {version}")
+
+
+def _searched(request: Request, opened: _Opened, search: Search) -> str:
+    with stop_on_signals(_stopping) as stop, _executor(request) as executor:
+        executor.prepare(opened.evaluator.prepare)
+        return search.run(executor, opened.evaluator, stop)
+
+
+def _stopping() -> None:
+    note("stopping when the evaluations under way are complete; Ctrl-C once more drops them")
+
+
+@contextmanager
+def _executor(request: Request) -> Iterator[Executor]:
+    if request.dask is None:
+        with ProcessExecutor(request.workers) as executor:
+            yield executor
+        return
+    with of_extra("study"):
+        from neuromech.study.dask_executor import DaskExecutor
+    with DaskExecutor(request.dask) as cluster:
+        yield cluster
+
+
+def _conclude(request: Request, opened: _Opened, search: Search) -> None:
+    """Say what was found, draw it, and write it back."""
+    stages = opened.plan.header.stages
+    figure = convergence_figure(opened.name, search.evaluations, stages)
+    if figure is not None:
+        folder = Path("results") / folder_name(opened.name)
+        folder.mkdir(parents=True, exist_ok=True)
+        with style():
+            note(f"wrote {save(figure, folder / FIGURE)[0]}")
+    found = best_of(search.evaluations)
+    if found is None or found.score is None:
+        return
+    score = score_text(found.score, stages)
+    note(f"best: evaluation {found.number}, score {score}")
+    if request.write is not None:
+        origin = f"study {opened.name}, evaluation {found.number}, score {score}"
+        write_back(opened.plan.document, found.parameters, origin, request.write)
+        note(f"wrote {request.write}")

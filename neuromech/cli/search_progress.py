@@ -1,0 +1,55 @@
+"""The progress of a search: a live line in a terminal, a line for each generation elsewhere."""
+
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from datetime import timedelta
+
+from rich.progress import BarColumn, Progress, TextColumn
+
+from neuromech.cli.consoles import notes
+from neuromech.cli.scores import score_text
+from neuromech.cli.terminal import note
+from neuromech.study.progress import Report, Standing
+
+
+@contextmanager
+def search_progress(stages: Sequence[str], shown: bool) -> Iterator[Report]:
+    """Show progress on stderr while the block runs; yield what takes the standing of the search."""
+    if not shown:
+        yield lambda standing: None
+    elif not notes().is_terminal:
+        yield _plain(stages)
+    else:
+        with Progress(BarColumn(20), TextColumn("{task.description}", markup=False), console=notes()) as progress:
+            task = progress.add_task("preparing", total=None)
+            yield lambda standing: progress.update(
+                task, description=standing_text(standing, stages), completed=standing.done, total=standing.total
+            )
+
+
+def standing_text(standing: Standing, stages: Sequence[str]) -> str:
+    """Return how far a search is, on one line."""
+    parts = [
+        f"generation {standing.generation}",
+        f"{standing.done} of {standing.total}",
+        f"best {score_text(standing.best, stages)}",
+        f"median {score_text(standing.median, stages)}",
+        f"{standing.rate:.3g}/s",
+        f"{standing.real_time_factor:.3g} × real time",
+    ]
+    if standing.remaining is not None:
+        parts.append(f"{timedelta(seconds=round(standing.remaining))} to go")
+    parts.append(f"{standing.crashed} crashed, {standing.fallen} fell")
+    return ", ".join(parts)
+
+
+def _plain(stages: Sequence[str]) -> Callable[[Standing], None]:
+    generation = -1
+
+    def report(standing: Standing) -> None:
+        nonlocal generation
+        if generation >= 0 and (standing.generation > generation or standing.done == standing.total):
+            note(standing_text(standing, stages))
+        generation = standing.generation
+
+    return report

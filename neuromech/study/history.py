@@ -1,0 +1,75 @@
+"""What a study found: its generations in a row, its best candidate, and why candidates failed."""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+from neuromech.study.evaluation import Evaluation
+from neuromech.study.progress import median
+from neuromech.study.score import Score
+
+
+@dataclass(frozen=True, slots=True)
+class Generation:
+    """One generation in numbers.
+
+    Args:
+        number: from 0.
+        evaluations: how many of its candidates are complete.
+        best: its best score; None where all of its candidates failed.
+        median: its lower median, failed candidates counting as worst; None where that is a failed one.
+        best_so_far: the best score of this generation and all before it.
+        failed: how many crashed or diverged.
+        fell: how many fell.
+    """
+
+    number: int
+    evaluations: int
+    best: Score | None
+    median: Score | None
+    best_so_far: Score | None
+    failed: int
+    fell: int
+
+
+def generations(evaluations: Iterable[Evaluation]) -> list[Generation]:
+    """Return the generations that have complete evaluations, in order."""
+    members: dict[int, list[Evaluation]] = {}
+    for evaluation in evaluations:
+        members.setdefault(evaluation.generation, []).append(evaluation)
+    found: list[Generation] = []
+    for number in sorted(members):
+        so_far = found[-1].best_so_far if found else None
+        found.append(_generation(number, members[number], so_far))
+    return found
+
+
+def best_of(evaluations: Iterable[Evaluation]) -> Evaluation | None:
+    """Return the evaluation with the best score, the earliest of equals; None where all failed."""
+    best: Evaluation | None = None
+    for evaluation in sorted(evaluations, key=lambda one: one.number):
+        if evaluation.score is not None and (best is None or best.score is None or evaluation.score > best.score):
+            best = evaluation
+    return best
+
+
+def failures(evaluations: Iterable[Evaluation]) -> list[tuple[str, list[int]]]:
+    """Return why candidates failed, the most frequent reason first, each with the numbers of its evaluations."""
+    numbers: dict[str, list[int]] = {}
+    for evaluation in evaluations:
+        if evaluation.failure is not None:
+            numbers.setdefault(evaluation.failure, []).append(evaluation.number)
+    return sorted(numbers.items(), key=lambda pair: (-len(pair[1]), pair[0]))
+
+
+def _generation(number: int, members: Sequence[Evaluation], so_far: Score | None) -> Generation:
+    scores = [member.score for member in members]
+    best = max((score for score in scores if score is not None), default=None)
+    return Generation(
+        number=number,
+        evaluations=len(members),
+        best=best,
+        median=median(scores),
+        best_so_far=max((score for score in (best, so_far) if score is not None), default=None),
+        failed=scores.count(None),
+        fell=sum(member.fell for member in members),
+    )

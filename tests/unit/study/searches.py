@@ -1,0 +1,133 @@
+"""A small study whose candidates are judged by a formula, and what runs it without processes."""
+
+import os
+from collections.abc import Callable
+from concurrent.futures import Future
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from neuromech.pipeline import load_document
+from neuromech.study.driver import Search
+from neuromech.study.evaluation import Evaluation, Job, RunResult
+from neuromech.study.executors import Executor, call
+from neuromech.study.plan import Plan
+from neuromech.study.score import Score
+from neuromech.study.space import Space
+from neuromech.study.storage import StoredStudy
+
+DOCUMENT = """
+neuromech: 1
+name: two cells
+parameters:
+  gain: {value: 0.5, minimum: 0.1, maximum: 2}
+  delay: {value: 20 ms, minimum: 1 ms, maximum: 0.1 s}
+network:
+  neurons:
+    first: {kind: rate_neuron, time_constant: "${delay}", bias: 1}
+    second: {kind: rate_neuron, time_constant: 10 ms}
+  synapses:
+    excitatory:
+      first: {second: "${gain}"}
+protocol: {duration: 50 ms}
+record:
+  all: {signals: ["*.activity"], every: 1 ms}
+study:
+  tune: {gain: {}, delay: {scale: log}}
+  algorithm: {kind: pso, population: 4}
+  evaluations: 14
+  seed: 3
+  scenarios: {plain: {seeds: 2}}
+  objective:
+    terms:
+      level: {measure: {kind: final, signal: second.activity}, target: 0.3, scale: 0.1}
+"""
+
+
+def plan_in(folder: Path, *overrides: str, text: str = DOCUMENT) -> Plan:
+    """Write the document into a folder and return its plan."""
+    file = folder / "cells.yaml"
+    file.write_text(text, "utf-8")
+    return Plan.of(load_document(file, overrides))
+
+
+class Paraboloid:
+    """Judges a candidate by its distance from a place of the cube; notes what it evaluated in a file."""
+
+    def __init__(self, space: Space, notes: Path, crashing: tuple[int, ...] = (), deadly: tuple[int, ...] = ()) -> None:
+        self.space = space
+        self.notes = notes
+        self.crashing = crashing
+        self.deadly = deadly
+
+    def __call__(self, job: Job) -> Evaluation:
+        with self.notes.open("a") as stream:
+            stream.write(f"{job.number}\n")
+        if job.number in self.deadly:
+            os._exit(9)
+        if job.number in self.crashing:
+            raise ZeroDivisionError("the cat divided itself")
+        point = np.array(job.point)
+        score = Score(0, -float(np.sum((point - 0.3) ** 2)))
+        measures = {"distance": float(point[0]), "words": "none"}
+        runs = tuple(RunResult("plain", seed, "finished", 1.0, "", measures, {"distance": 1.0}) for seed in job.seeds)
+        parameters = self.space.parameters(point)
+        return Evaluation(job.number, job.generation, job.index, parameters, runs, score, None, 0.1, 1.0)
+
+    def numbers(self) -> list[int]:
+        """Return what was evaluated, in this order."""
+        return [int(line) for line in self.notes.read_text().split()] if self.notes.exists() else []
+
+
+class Inline(Executor):
+    """Carries out jobs at once, in this thread; the last of those handed out together is over first."""
+
+    def __init__(self, workers: int = 1) -> None:
+        self._workers = workers
+
+    @property
+    def workers(self) -> int:
+        return self._workers
+
+    def prepare(self, function: Callable[[], None]) -> None:
+        function()
+
+    def close(self) -> None:
+        """Nothing to let go."""
+
+    def _slots(self) -> int:
+        return self._workers
+
+    def _submit(self, pickled: bytes, job: Any) -> Future[Any]:
+        future: Future[Any] = Future()
+        try:
+            future.set_result(call(pickled, job))
+        except ZeroDivisionError as error:
+            future.set_exception(error)
+        return future
+
+    def _release(self, future: Future[Any]) -> bool:
+        return False
+
+
+def never() -> bool:
+    return False
+
+
+def searched(
+    plan: Plan,
+    stored: StoredStudy,
+    task: Callable[[Job], Evaluation],
+    executor: Executor | None = None,
+    stop: Callable[[], bool] = never,
+) -> str:
+    """Search with a task, and return how it ended."""
+    return Search(plan, stored, lambda standing: None).run(executor or Inline(), task, stop)
+
+
+def contents(stored: StoredStudy) -> list[dict[str, Any]]:
+    """Return the stored evaluations without the time that they took."""
+    return [
+        {key: value for key, value in one.to_dict().items() if key != "wall_seconds"} for one in stored.evaluations()
+    ]
