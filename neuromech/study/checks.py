@@ -17,42 +17,37 @@ from neuromech.study.objective_checks import objective_problems
 from neuromech.study.scenarios import written_overrides
 
 
-def check_study(document: Document, composed: Composed, overrides: tuple[str, ...] = ()) -> Study:
-    """Check a study and return it.
+def check_study(graph: ModelGraph, composed: Composed, overrides: tuple[str, ...] = ()) -> Study:
+    """Check the study of a model that is right otherwise, and return it.
 
     Args:
-        document: the document.
-        composed: its files.
-        overrides: what was changed in it, each as in `--set`.
+        graph: the model, built and checked.
+        composed: the files of its document.
+        overrides: what was changed in the document, each as in `--set`.
 
     Raises:
         DocumentError: the document has no study, or something in it is wrong; every problem is named.
     """
+    document = graph.document
     study = document.experiment.study
     if study is None:
         hint = "docs/studies.md shows what stands in one"
         raise DocumentError([document.problem("no-study", "", "has no section 'study'", hint=hint)])
-    graph = build(document)
-    check(graph)
-    problems = list(study_problems(graph, composed, overrides))
+    problems = [*_algorithm_problems(document, study), *objective_problems(graph, study)]
+    for name, scenario in study.scenarios.items():
+        place = f"study.scenarios.{name}.set"
+        problems += change_problems(document, place, scenario.set, composed, overrides)
     if problems:
         raise DocumentError(problems)
     return study
 
 
-def study_problems(graph: ModelGraph, composed: Composed, overrides: tuple[str, ...] = ()) -> Iterator[Problem]:
-    """Yield what is wrong with the study of a model that is right otherwise."""
-    document = graph.document
-    study = document.experiment.study
-    if study is None:
-        return
+def _algorithm_problems(document: Document, study: Study) -> tuple[Problem, ...]:
     try:
         AlgorithmCatalogue.installed().settings(study.algorithm, mark=document.mark)
     except DocumentError as error:
-        yield from error.problems
-    yield from objective_problems(graph, study)
-    for name, scenario in study.scenarios.items():
-        yield from change_problems(document, f"study.scenarios.{name}.set", scenario.set, composed, overrides)
+        return error.problems
+    return ()
 
 
 def change_problems(

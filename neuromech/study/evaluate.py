@@ -11,6 +11,8 @@ import numpy as np
 from neuromech.compiler.program import Program
 from neuromech.components.catalogue import Catalogue
 from neuromech.errors import DocumentError
+from neuromech.graph.build import build
+from neuromech.graph.check import check
 from neuromech.simulate.recording import Outcome, Recording
 from neuromech.simulate.run import Checkpoint, simulate
 from neuromech.spec.includes import compose
@@ -44,7 +46,9 @@ class Evaluator:
         self._composed = compose(file)
         self._overrides = (*overrides, *([f"body.engine={engine}"] if engine else []))
         self.document = load_composed(self._composed, catalogue=Catalogue.installed(), overrides=self._overrides)
-        self.study = check_study(self.document, self._composed, self._overrides)
+        graph = build(self.document)
+        check(graph)
+        self.study = check_study(graph, self._composed, self._overrides)
         self.space = Space.of(self.document)
         self.scenarios = Scenarios.of(self.document)
         self.objective = Objective.of(self.study)
