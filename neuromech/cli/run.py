@@ -19,6 +19,7 @@ from neuromech.compiler.lower import lower
 from neuromech.compiler.program import Program
 from neuromech.errors import DocumentError, Problem
 from neuromech.pipeline import build_graph, load_document
+from neuromech.report.gait import gait_table
 from neuromech.report.overview import write_figures
 from neuromech.report.summary import metrics, summary_table
 from neuromech.simulate.recording import Recording
@@ -151,6 +152,9 @@ def _is_complete(recording: Recording, request: Request) -> bool:
 def _show(finding: Finding) -> None:
     out = notes()
     out.print(summary_table(finding.recording))
+    gait = gait_table(finding.recording)
+    if gait is not None:
+        out.print(gait)
     if finding.verdicts:
         out.print(claims_table(finding.verdicts))
     outcome = finding.recording.outcome

@@ -6,6 +6,7 @@ from rich.table import Table
 from rich.text import Text
 
 from neuromech.analyse.measures import MeasuredValue, measure
+from neuromech.report.gait import gait_measures
 from neuromech.report.layout import by_scope, in_shown_unit, shown_unit
 from neuromech.simulate.recording import Recording
 from neuromech.spec.measure import Measure
@@ -32,12 +33,12 @@ def summary_table(recording: Recording) -> Table:
 def metrics(recording: Recording) -> dict[str, Any]:
     """Return {measure: {signal: {value, unit}}} over the second half of a run, in SI units.
 
-    The period of the first neuron of each leg, and centre and amplitude of each joint angle. `value` is a text where
-    there was nothing to measure (`no rhythm`).
+    The period of the first neuron of each leg, centre and amplitude of each joint angle, and the gait where feet carry
+    load (see `gait_measures`). `value` is a text where there was nothing to measure (`no rhythm`).
     """
     return {
         kind: {name: {"value": value.value, "unit": value.unit} for name, value in found.items()}
-        for kind, found in _measured(recording).items()
+        for kind, found in (*_measured(recording).items(), *gait_measures(recording).items())
     }
 
 

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from neuromech.simulate.anatomy import NO_BODY, Anatomy
 from neuromech.simulate.recording import GroupData, Outcome, Provenance, Recording
 
 PERIOD = 0.457
@@ -63,8 +64,8 @@ def group(time, signals):
     return GroupData(time, tuple(signals), values, tuple(unit for unit, _ in signals.values()))
 
 
-def origin(outcome):
-    return Provenance("suspended cat", "", "0", {}, "pybullet", "any", 0, {}, outcome, outcome.time, 24.0)
+def origin(outcome, anatomy=NO_BODY):
+    return Provenance("suspended cat", "", "0", {}, "pybullet", "any", 0, {}, outcome, outcome.time, 24.0, anatomy)
 
 
 @pytest.fixture
@@ -74,7 +75,7 @@ def cat():
     def make(load=0.0, seconds=12.0, outcome=None):
         fine, coarse = np.arange(0.0, seconds, 0.001), np.arange(0.0, seconds, 0.005)
         groups = {"network": group(fine, network(fine)), "body": group(coarse, body(coarse, load))}
-        return Recording.from_groups(groups, origin(outcome or Outcome("finished", seconds)))
+        return Recording.from_groups(groups, origin(outcome or Outcome("finished", seconds), Anatomy(6.0, 9.81, {})))
 
     return make
 
@@ -83,8 +84,9 @@ def cat():
 def record():
     """Make a recording from {name: (unit, values)} sampled at 1 kHz."""
 
-    def make(signals):
+    def make(signals, outcome=None, mass=0.0):
         time = np.arange(len(next(iter(signals.values()))[1])) * 0.001
-        return Recording.from_groups({"all": group(time, signals)}, origin(Outcome("finished", 1.0)))
+        source = origin(outcome or Outcome("finished", 1.0), Anatomy(mass, 9.81, {}))
+        return Recording.from_groups({"all": group(time, signals)}, source)
 
     return make
