@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from neuromech.compiler.body_state import BodyState
 from neuromech.errors import Problem
+from neuromech.graph.model import BodyModel
 from neuromech.spec.model import Root
 
 Floats = NDArray[np.float64]
@@ -36,7 +37,7 @@ class Engine:
 
 
 class Body(ABC):
-    """A body that moves in steps of equal length. Opened at the initial angles of its joints, at rest.
+    """A body that moves in steps of equal length. Opened at the initial angles of its joints, with its first motion.
 
     `damping`, `stiffness` and `rest_angle` of joints are no business of an engine: the coupling adds them to the
     torques that `step` gets, so an engine sets its own joint damping to zero. `range` of joints is its business.
@@ -80,7 +81,7 @@ class Body(ABC):
 
     @abstractmethod
     def reset(self, angles: Sequence[float] | Floats, velocities: Sequence[float] | Floats | None = None) -> None:
-        """Put the body to its first root pose with given joint angles and velocities; everything else is as new.
+        """Give joints angles and velocities; everything else is as new, pose and velocity of the root included.
 
         Args:
             angles: (joints,) in rad, of slides in m.
@@ -126,6 +127,12 @@ class Body(ABC):
 def body_problem(message: str, hint: str | None = None) -> Problem:
     """Return the problem of a document whose body an engine cannot move."""
     return Problem("body", "body", message, hint=hint)
+
+
+def initial_motion(body: BodyModel) -> tuple[list[float], list[float]]:
+    """Return angle and velocity of every joint at time zero, in rad and rad/s, of slides in m and m/s."""
+    angles = [float(joint.initial_angle) for joint in body.joints.values()]
+    return angles, [body.motion.joints.get(name, 0.0) for name in body.joints]
 
 
 def root_quaternion(root: Root) -> tuple[float, float, float, float]:

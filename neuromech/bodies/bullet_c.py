@@ -45,6 +45,7 @@ _SIGNATURES: Final[dict[str, tuple[Any, ...]]] = {
     "b3GetJointInfo": (_I, _P, _I, _I, _P),
     "b3CreateCollisionShapeCommandInit": (_P, _P),
     "b3CreateCollisionShapeAddPlane": (_I, _P, _P, _D),
+    "b3CreateCollisionShapeAddBox": (_I, _P, _P),
     "b3CreateMultiBodyCommandInit": (_P, _P),
     "b3CreateMultiBodyBase": (_I, _P, _D, _I, _I, _P, _P, _P, _P),
     "b3JointControlCommandInit2": (_P, _P, _I, _I),
@@ -67,6 +68,8 @@ _SIGNATURES: Final[dict[str, tuple[Any, ...]]] = {
     "b3CreatePoseCommandInit": (_P, _P, _I),
     "b3CreatePoseCommandSetBasePosition": (_I, _P, _D, _D, _D),
     "b3CreatePoseCommandSetBaseOrientation": (_I, _P, _D, _D, _D, _D),
+    "b3CreatePoseCommandSetBaseLinearVelocity": (_I, _P, _P),
+    "b3CreatePoseCommandSetBaseAngularVelocity": (_I, _P, _P),
     "b3CreatePoseCommandSetJointPosition": (_I, _P, _P, _I, _D),
     "b3CreatePoseCommandSetJointVelocity": (_I, _P, _P, _I, _D),
     "b3RequestActualStateCommandInit": (_P, _P, _I),
@@ -172,11 +175,13 @@ class CClient(BulletClient):
         """Add a level plane."""
         command = self._b3.b3CreateCollisionShapeCommandInit(self.handle)
         self._b3.b3CreateCollisionShapeAddPlane(command, _numbers(0.0, 0.0, 1.0), 0.0)
-        shape = self._b3.b3GetStatusCollisionShapeUniqueId(self._submit(command))
-        command = self._b3.b3CreateMultiBodyCommandInit(self.handle)
-        nowhere, level = _numbers(0.0, 0.0, 0.0), _numbers(0.0, 0.0, 0.0, 1.0)
-        self._b3.b3CreateMultiBodyBase(command, 0.0, shape, -1, _numbers(0.0, 0.0, height), level, nowhere, level)
-        return int(self._b3.b3GetStatusBodyIndex(self._submit(command)))
+        return self._add(command, (0.0, 0.0, height), (0.0, 0.0, 0.0, 1.0))
+
+    def add_box(self, size: Sequence[float], position: Sequence[float], quaternion: Sequence[float]) -> int:
+        """Add a box."""
+        command = self._b3.b3CreateCollisionShapeCommandInit(self.handle)
+        self._b3.b3CreateCollisionShapeAddBox(command, _numbers(*(0.5 * side for side in size)))
+        return self._add(command, position, quaternion)
 
     def stop_motors(self, robot: int, joints: Sequence[BulletJoint]) -> None:
         """Take away the force of the motors."""
@@ -208,11 +213,15 @@ class CClient(BulletClient):
         x, y, z = info.inertia
         return (info.mass, x, y, z)
 
-    def put_root(self, robot: int, position: Sequence[float], quaternion: Sequence[float]) -> None:
+    def put_root(
+        self, robot: int, position: Sequence[float], quaternion: Sequence[float], velocity: Sequence[float]
+    ) -> None:
         """Put the root link's centre of mass to a place."""
         command = self._b3.b3CreatePoseCommandInit(self.handle, robot)
         self._b3.b3CreatePoseCommandSetBasePosition(command, *position)
         self._b3.b3CreatePoseCommandSetBaseOrientation(command, *quaternion)
+        self._b3.b3CreatePoseCommandSetBaseLinearVelocity(command, _numbers(*velocity))
+        self._b3.b3CreatePoseCommandSetBaseAngularVelocity(command, _numbers(0.0, 0.0, 0.0))
         self._submit(command)
 
     def put_joint(self, robot: int, joint: int, position: float, velocity: float) -> None:
@@ -231,6 +240,14 @@ class CClient(BulletClient):
         if self.handle:
             self._b3.b3DisconnectSharedMemory(self.handle)
             self.handle = 0
+
+    def _add(self, shape: int, position: Sequence[float], quaternion: Sequence[float]) -> int:
+        number = self._b3.b3GetStatusCollisionShapeUniqueId(self._submit(shape))
+        command = self._b3.b3CreateMultiBodyCommandInit(self.handle)
+        nowhere, level = _numbers(0.0, 0.0, 0.0), _numbers(0.0, 0.0, 0.0, 1.0)
+        place, turned = _numbers(*position), _numbers(*quaternion)
+        self._b3.b3CreateMultiBodyBase(command, 0.0, number, -1, place, turned, nowhere, level)
+        return int(self._b3.b3GetStatusBodyIndex(self._submit(command)))
 
     def _submit(self, command: int) -> int:
         status: int | None = self._b3.b3SubmitClientCommandAndWaitStatus(self.handle, command)

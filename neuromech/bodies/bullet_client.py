@@ -55,6 +55,10 @@ class BulletClient(ABC):
         """Add a level plane at a height in m and return it."""
 
     @abstractmethod
+    def add_box(self, size: Sequence[float], position: Sequence[float], quaternion: Sequence[float]) -> int:
+        """Add a box that never moves, with sides and centre in m, and return it."""
+
+    @abstractmethod
     def stop_motors(self, robot: int, joints: Sequence[BulletJoint]) -> None:
         """Take away the force of the motors with which joints are born."""
 
@@ -67,8 +71,10 @@ class BulletClient(ABC):
         """Return mass in kg and principal moments of inertia in kg m² that Bullet gave a link."""
 
     @abstractmethod
-    def put_root(self, robot: int, position: Sequence[float], quaternion: Sequence[float]) -> None:
-        """Put the root link's centre of mass to a place, at rest."""
+    def put_root(
+        self, robot: int, position: Sequence[float], quaternion: Sequence[float], velocity: Sequence[float]
+    ) -> None:
+        """Put the root link's centre of mass to a place, with a velocity in m/s and without turning."""
 
     @abstractmethod
     def put_joint(self, robot: int, joint: int, position: float, velocity: float) -> None:

@@ -91,8 +91,8 @@ class BulletEngine(NamedTuple):
 
     Args:
         calls: addresses of Bullet's functions, in the order of `_CALLS`.
-        world: the client's handle, the numbers of robot and ground (−1 without one), the kind of root, and whether
-            Bullet failed.
+        world: the client's handle, the numbers of robot and ground (−1 where it is not one piece), the kind of root,
+            and whether Bullet failed.
         positions: place of each joint among the robot's positions; those of a planar root follow.
         velocities: place of each joint among the robot's velocities; those of a planar root follow.
         rows: Bullet's link number -> row of the contact, −1 for other links.
@@ -149,7 +149,7 @@ def _engine(client: CClient, world: BulletWorld) -> BulletEngine:
     rows = np.full(max(world.contact_row, default=-1) + 1, -1, dtype=np.int64)
     for link, row in world.contact_row.items():
         rows[link] = row
-    ground = -1 if world.ground is None else world.ground
+    ground = world.ground[0] if len(world.ground) == 1 else -1
     kind = PLANAR if world.root else FREE if world.free else FIXED
     return BulletEngine(
         calls=np.array([client.address(name) for name in _CALLS], dtype=np.int64),

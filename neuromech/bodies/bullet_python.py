@@ -62,6 +62,15 @@ class PythonClient(BulletClient):
         plane: int = pybullet.createMultiBody(0.0, shape, basePosition=(0.0, 0.0, height), physicsClientId=self.number)
         return plane
 
+    def add_box(self, size: Sequence[float], position: Sequence[float], quaternion: Sequence[float]) -> int:
+        """Add a box."""
+        half = [0.5 * side for side in size]
+        shape = pybullet.createCollisionShape(pybullet.GEOM_BOX, halfExtents=half, physicsClientId=self.number)
+        box: int = pybullet.createMultiBody(
+            0.0, shape, basePosition=position, baseOrientation=quaternion, physicsClientId=self.number
+        )
+        return box
+
     def stop_motors(self, robot: int, joints: Sequence[BulletJoint]) -> None:
         """Take away the force of the motors."""
         pybullet.setJointMotorControlArray(
@@ -81,9 +90,12 @@ class PythonClient(BulletClient):
         info = pybullet.getDynamicsInfo(robot, link, physicsClientId=self.number)
         return (info[0], *info[2])
 
-    def put_root(self, robot: int, position: Sequence[float], quaternion: Sequence[float]) -> None:
+    def put_root(
+        self, robot: int, position: Sequence[float], quaternion: Sequence[float], velocity: Sequence[float]
+    ) -> None:
         """Put the root link's centre of mass to a place."""
         pybullet.resetBasePositionAndOrientation(robot, position, quaternion, physicsClientId=self.number)
+        pybullet.resetBaseVelocity(robot, velocity, (0.0, 0.0, 0.0), physicsClientId=self.number)
 
     def put_joint(self, robot: int, joint: int, position: float, velocity: float) -> None:
         """Give a joint its angle and velocity."""
@@ -180,9 +192,10 @@ class PythonMotion:
         forces = state[self._layout.contact_forces]
         forces[:] = 0.0
         world = self.world
-        if world.ground is None or not world.contact_row:
+        if not world.ground or not world.contact_row:
             return
-        for point in pybullet.getContactPoints(world.robot, world.ground, physicsClientId=self.client.number):
+        only = world.ground if len(world.ground) == 1 else ()
+        for point in pybullet.getContactPoints(world.robot, *only, physicsClientId=self.client.number):
             at = 3 * world.contact_row[point[3]]
             normal, first, second = point[7], point[11], point[13]
             for k in range(3):

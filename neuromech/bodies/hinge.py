@@ -13,7 +13,7 @@ from typing import Final
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from neuromech.bodies.base import Body, Engine, Floats, body_problem, root_quaternion
+from neuromech.bodies.base import Body, Engine, Floats, body_problem, initial_motion, root_quaternion
 from neuromech.compiler.body_state import BodyState
 from neuromech.compiler.tree import lower_tree
 from neuromech.errors import DocumentError, RunError
@@ -47,8 +47,7 @@ class HingeBody(Body):
         self._root_pose = (*map(float, body.root.position), *root_quaternion(body.root))
         self._inertia, self._cosine, self._sine = _constants(body)
         self._frequency = sqrt(hypot(self._cosine, self._sine) / self._inertia)
-        self._angle = float(joint.initial_angle)
-        self._velocity = 0.0
+        (self._angle,), (self._velocity,) = initial_motion(body)
         self._open = True
 
     def read(self, state: Floats) -> None:

@@ -5,13 +5,15 @@ is the product of the two frictions, as in Bullet. (MuJoCo's rule for colliding 
 contact sensor per sphere reports the force of the ground on it in world axes.
 """
 
+from math import cos, sin
 from typing import Final
 from xml.etree import ElementTree
 
 from neuromech.bodies.base import root_quaternion
 from neuromech.compiler.tree import unit_vector
 from neuromech.graph.model import BodyModel
-from neuromech.spec.model import BoxShape, Contact, Ground, Joint, Segment
+from neuromech.graph.terrain import Terrain, terrain
+from neuromech.spec.model import BoxShape, Contact, Joint, Segment
 
 # Qualified names of a document hold no colon, so these collide with none.
 CONTACT: Final = "contact:"
@@ -56,7 +58,7 @@ def mjcf_text(body: BodyModel, step: float) -> str:
         sphere = {"name": CONTACT + name, "type": "sphere", "size": size, "pos": position}
         ElementTree.SubElement(elements[contact.segment], "geom", sphere | _NO_VOLUME)
     if body.world.ground is not None:
-        _ground(model, world, body.world.ground, body.contacts)
+        _ground(model, world, terrain(body.world.ground), body.contacts)
     ElementTree.indent(model)
     return ElementTree.tostring(model, encoding="unicode")
 
@@ -108,24 +110,42 @@ def _segment(element: ElementTree.Element, segment: Segment) -> None:
         ElementTree.SubElement(element, "geom", {"type": "capsule", "size": size, "fromto": ends} | _NO_VOLUME)
 
 
+def ground_pieces(ground: Terrain) -> list[tuple[str, float]]:
+    """Return name and friction of the geometries that the ground is made of, in the order of their contact pairs."""
+    plane = [] if ground.plane is None else [(GROUND, ground.plane[1])]
+    return [*plane, *((GROUND + box.name, box.friction) for box in ground.boxes)]
+
+
 def _ground(
-    model: ElementTree.Element, world: ElementTree.Element, ground: Ground, contacts: dict[str, Contact]
+    model: ElementTree.Element, world: ElementTree.Element, ground: Terrain, contacts: dict[str, Contact]
 ) -> None:
-    plane = {"name": GROUND, "type": "plane", "size": "0 0 1", "pos": _text(0.0, 0.0, ground.height)}
-    ElementTree.SubElement(world, "geom", plane | _NO_VOLUME)
+    if ground.plane is not None:
+        plane = {"name": GROUND, "type": "plane", "size": "0 0 1", "pos": _text(0.0, 0.0, ground.plane[0])}
+        ElementTree.SubElement(world, "geom", plane | _NO_VOLUME)
+    for box in ground.boxes:
+        size, position = _text(*(side / 2 for side in box.size)), _text(*box.center)
+        turned = _text(cos(box.angle / 2), 0.0, -sin(box.angle / 2), 0.0)
+        shape = {"name": GROUND + box.name, "type": "box", "size": size, "pos": position, "quat": turned}
+        ElementTree.SubElement(world, "geom", shape | _NO_VOLUME)
     pairs = ElementTree.SubElement(model, "contact")
     sensors = ElementTree.SubElement(model, "sensor")
     for name, contact in contacts.items():
-        both = {"geom1": GROUND, "geom2": CONTACT + name}
-        friction = float(contact.friction) * float(ground.friction)
-        law = {
-            "solref": _text(*_SOLREF),
-            "solimp": _text(*_SOLIMP),
-            "friction": _text(friction, friction, 0.0, 0.0, 0.0),
-        }
-        # Without friction the contact has its normal direction only: MuJoCo would raise a zero to 1e-5.
-        ElementTree.SubElement(pairs, "pair", both | law | {"condim": "3" if friction > 0.0 else "1"})
+        for piece, ground_friction in ground_pieces(ground):
+            ElementTree.SubElement(pairs, "pair", _pair(piece, CONTACT + name, ground_friction * contact.friction))
+        both = {"body1": "world", "geom2": CONTACT + name}
         ElementTree.SubElement(sensors, "contact", both | {"data": "force", "reduce": "netforce", "num": "1"})
+
+
+def _pair(ground: str, contact: str, friction: float) -> dict[str, str]:
+    return {
+        "geom1": ground,
+        "geom2": contact,
+        "solref": _text(*_SOLREF),
+        "solimp": _text(*_SOLIMP),
+        "friction": _text(friction, friction, 0.0, 0.0, 0.0),
+        # Without friction the contact has its normal direction only: MuJoCo would raise a zero to 1e-5.
+        "condim": "3" if friction > 0.0 else "1",
+    }
 
 
 def _text(*numbers: float) -> str:

@@ -9,7 +9,7 @@ from typing import Any, ClassVar, Literal
 
 import numpy as np
 
-from neuromech.bodies.base import Body, Engine, Floats, root_quaternion
+from neuromech.bodies.base import Body, Engine, Floats, initial_motion, root_quaternion
 from neuromech.bodies.mujoco_native import read
 from neuromech.bodies.mujoco_world import build_model, load_mujoco, step_address
 from neuromech.compiler.body_state import BodyState
@@ -51,8 +51,9 @@ class MujocoBody(Body):
         joints = [self._model.joint(name) for name in self.joints]
         places = [[joint.qposadr[0] for joint in joints], [joint.dofadr[0] for joint in joints]]
         self._root_start = _root_start(body)
+        self._root_velocity = _root_velocity(body)
         self._engine = self._views(body, np.array(places, dtype=np.int64).reshape(2, -1), address or 0)
-        self.reset([float(joint.initial_angle) for joint in body.joints.values()])
+        self.reset(*initial_motion(body))
 
     def read(self, state: Floats) -> None:
         """Fill the state array."""
@@ -78,6 +79,7 @@ class MujocoBody(Body):
         _, _, places, positions, speeds, *_ = self._opened()
         self._mujoco.mj_resetData(self._model, self._data)
         positions[: len(self._root_start)] = self._root_start
+        speeds[: len(self._root_velocity)] = self._root_velocity
         positions[places[0]] = angles
         if velocities is not None:
             speeds[places[1]] = velocities
@@ -111,6 +113,12 @@ class MujocoBody(Body):
             data.sensordata if body.world.ground is not None else np.zeros(3 * len(body.contacts)),
             data.warning.number,
         )
+
+
+def _root_velocity(body: BodyModel) -> tuple[float, ...]:
+    # The first entries of MuJoCo's qvel.
+    x, y, z = map(float, body.motion.root)
+    return {FREE_ROOT: (x, y, z), PLANAR_ROOT: (x, z)}.get(lower_tree(body).root, ())
 
 
 def _root_start(body: BodyModel) -> tuple[float, ...]:

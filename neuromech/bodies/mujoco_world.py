@@ -9,10 +9,11 @@ from typing import Any, Final
 import numpy as np
 
 from neuromech.bodies.base import body_problem
-from neuromech.bodies.mjcf import CONTACT, SLIP_RATE, TIME_CONSTANT, mjcf_text
+from neuromech.bodies.mjcf import CONTACT, SLIP_RATE, TIME_CONSTANT, ground_pieces, mjcf_text
 from neuromech.errors import DocumentError, MissingExtraError, Problem
 from neuromech.graph.engines import refusals
 from neuromech.graph.model import BodyModel
+from neuromech.graph.terrain import terrain
 from neuromech.spec.model import Contact
 
 _INERTIA_TOLERANCE: Final = 1e-9
@@ -97,7 +98,8 @@ def _changed_inertias(model: Any, body: BodyModel) -> Iterator[Problem]:
 def _set_contact_laws(model: Any, body: BodyModel, step: float) -> Iterator[Problem]:
     if body.world.ground is None:
         return
-    for row, (name, contact) in enumerate(body.contacts.items()):
+    pieces = len(ground_pieces(terrain(body.world.ground)))
+    for number, (name, contact) in enumerate(body.contacts.items()):
         if contact.stiffness is None or contact.damping is None:
             continue
         mobility = float(model.body_invweight0[model.geom(CONTACT + name).bodyid[0], 0])
@@ -106,9 +108,10 @@ def _set_contact_laws(model: Any, body: BodyModel, step: float) -> Iterator[Prob
             hint = "change its stiffness and damping, or leave both out"
             yield body_problem(f"contact '{name}' is too stiff or too soft for MuJoCo at this step", hint)
             continue
-        model.pair_solref[row] = reference
-        model.pair_solreffriction[row, 1] = -SLIP_RATE * impedance
-        model.pair_solimp[row, :3] = (impedance, impedance, 1.0)
+        rows = slice(number * pieces, (number + 1) * pieces)
+        model.pair_solref[rows] = reference
+        model.pair_solreffriction[rows, 1] = -SLIP_RATE * impedance
+        model.pair_solimp[rows, :3] = (impedance, impedance, 1.0)
 
 
 def _spring_and_damper(contact: Contact, mobility: float, step: float) -> tuple[float, tuple[float, float]]:

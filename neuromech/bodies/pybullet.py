@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from importlib.metadata import version
 from typing import ClassVar, Literal, Protocol
 
-from neuromech.bodies.base import Body, Engine, Floats
+from neuromech.bodies.base import Body, Engine, Floats, initial_motion
 from neuromech.bodies.bullet_c import CClient, bullet_library
 from neuromech.bodies.bullet_client import BulletClient
 from neuromech.bodies.bullet_native import BulletEngine, NativeMotion
@@ -65,7 +65,7 @@ class PyBulletBody(Body):
         self.layout = BodyState(len(body.joints), len(body.contacts))
         self._body = body
         self._motion: _Motion | None = None
-        self._start([float(joint.initial_angle) for joint in body.joints.values()], [0.0] * len(body.joints))
+        self._start(*initial_motion(body))
 
     def read(self, state: Floats) -> None:
         """Fill the state array."""

@@ -6,7 +6,7 @@ by default; joints are cut off at 100 rad/s; an impossible inertia is replaced b
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from math import inf
+from math import cos, inf, sin
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Final
@@ -19,6 +19,7 @@ from neuromech.bodies.urdf import CONTACT, PLANAR_JOINTS, urdf_text
 from neuromech.errors import DocumentError
 from neuromech.graph.engines import refusals
 from neuromech.graph.model import BodyModel
+from neuromech.graph.terrain import Terrain, terrain
 from neuromech.spec.model import Contact
 
 Vector = tuple[float, float, float]
@@ -45,7 +46,7 @@ class BulletWorld:
 
     Args:
         robot: the body.
-        ground: the plane, None without one.
+        ground: its pieces.
         joints: in the body's order.
         root: the three joints of a planar root, empty for other roots.
         free: whether the root moves freely.
@@ -56,7 +57,7 @@ class BulletWorld:
     """
 
     robot: int
-    ground: int | None
+    ground: list[int]
     joints: list[BulletJoint]
     root: list[BulletJoint]
     free: bool
@@ -91,16 +92,17 @@ def build_world(client: BulletClient, body: BodyModel, step: float) -> BulletWor
     _set_links(client, robot, body, links)
     named = {joint.name: joint for joint in every}
     x, y, z = body.segments[body.root_segment].center_of_mass
+    ground = None if body.world.ground is None else terrain(body.world.ground)
     return BulletWorld(
         robot=robot,
-        ground=_add_ground(client, body),
+        ground=_add_ground(client, ground),
         joints=[named[name] for name in body.joints],
         root=[named[name] for name in PLANAR_JOINTS if name in named],
         free=body.root.kind == "free",
         root_pose=(*map(float, body.root.position), *root_quaternion(body.root)),
         center=(float(x), float(y), float(z)),
         contact_row={links[CONTACT + name]: row for row, name in enumerate(body.contacts)},
-        clear_heights=_clear_heights(body),
+        clear_heights=_clear_heights(body, ground),
     )
 
 
@@ -114,11 +116,13 @@ def put(
     """Put the root to its first pose and the joints as told."""
     x, y, z, *quaternion = world.root_pose
     if world.root:
-        for joint, place in zip(world.root, (x, z, float(body.root.orientation[1])), strict=True):
-            client.put_joint(world.robot, joint.number, place, 0.0)
+        places = (x, z, float(body.root.orientation[1]))
+        speeds = (body.motion.root[0], body.motion.root[2], 0.0)
+        for joint, place, speed in zip(world.root, places, speeds, strict=True):
+            client.put_joint(world.robot, joint.number, place, float(speed))
     else:
         a, b, c = rotated(quaternion, world.center)
-        client.put_root(world.robot, (x + a, y + b, z + c), quaternion)
+        client.put_root(world.robot, (x + a, y + b, z + c), quaternion, body.motion.root if world.free else (0.0,) * 3)
     for joint, angle, velocity in zip(world.joints, angles, velocities, strict=True):
         client.put_joint(world.robot, joint.number, float(angle), float(velocity))
 
@@ -153,22 +157,24 @@ def _load(client: BulletClient, body: BodyModel) -> int:
         return client.load(file, fixed=body.root.kind != "free")
 
 
-def _add_ground(client: BulletClient, body: BodyModel) -> int | None:
-    ground = body.world.ground
+def _add_ground(client: BulletClient, ground: Terrain | None) -> list[int]:
     if ground is None:
-        return None
-    plane = client.add_plane(float(ground.height))
-    client.set_dynamics(plane, -1, {"lateralFriction": float(ground.friction), "restitution": 0.0})
-    return plane
+        return []
+    pieces = [] if ground.plane is None else [(client.add_plane(ground.plane[0]), ground.plane[1])]
+    for box in ground.boxes:
+        turned = (0.0, -sin(box.angle / 2), 0.0, cos(box.angle / 2))
+        pieces.append((client.add_box(box.size, box.center, turned), box.friction))
+    for piece, friction in pieces:
+        client.set_dynamics(piece, -1, {"lateralFriction": friction, "restitution": 0.0})
+    return [piece for piece, _ in pieces]
 
 
-def _clear_heights(body: BodyModel) -> list[float]:
+def _clear_heights(body: BodyModel, ground: Terrain | None) -> list[float]:
     # Bullet keeps contact points up to a gap of 0.02 m, for a sphere of more than 1 m in radius 0.02 radii.
-    ground = body.world.ground
     if ground is None:
         return [-inf] * len(body.contacts)
     radii = (float(contact.radius) for contact in body.contacts.values())
-    return [float(ground.height) + radius + _GAP * max(1.0, radius) for radius in radii]
+    return [ground.highest + radius + _GAP * max(1.0, radius) for radius in radii]
 
 
 def _set_links(client: BulletClient, robot: int, body: BodyModel, links: Mapping[str, int]) -> None:

@@ -35,7 +35,9 @@ from neuromech.graph.checks.signals import (
     measure_of_unrecorded,
     record_matches_nothing,
 )
+from neuromech.graph.checks.start import angle_starts_outside_range, start_below_ground, two_heights
 from neuromech.graph.checks.timing import delay_below_step
+from neuromech.graph.checks.world import ends_upside_down, hinge_engine_knows_no_ground, slope_misplaced, step_misplaced
 from neuromech.graph.model import ModelGraph
 
 Rule = Callable[[ModelGraph], Iterable[Problem]]
@@ -46,6 +48,9 @@ VALUE_RULES: tuple[Rule, ...] = (
     zero_axis,
     inertia_of_no_body,
     contact_without_ground,
+    ends_upside_down,
+    slope_misplaced,
+    step_misplaced,
     delay_below_step,
     varied_parameter,
     two_ways_of_wiring,
@@ -58,6 +63,7 @@ RULES: tuple[Rule, ...] = (
     *VALUE_RULES,
     hinge_engine,
     hinge_engine_knows_no_contact,
+    hinge_engine_knows_no_ground,
     engine_refusal,
     synapse_defined_twice,
     port_missing,
@@ -74,6 +80,9 @@ RULES: tuple[Rule, ...] = (
     measure_of_unrecorded,
     initial_matches_nothing,
     initial_of_wrong_unit,
+    angle_starts_outside_range,
+    two_heights,
+    start_below_ground,
 )
 
 

@@ -1,14 +1,15 @@
 """The model as a graph: every element a node, every connection an edge, all names resolved and qualified."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Literal
 
 import networkx as nx
 
 from neuromech.components.base import Component
 from neuromech.spec.document import Document
-from neuromech.spec.model import Contact, Joint, Population, Projection, Root, Segment, World
+from neuromech.spec.model import Contact, Joint, Population, Projection, Root, Segment
+from neuromech.spec.world import World
 
 NodeFamily = Literal["neuron", "population", "drive", "muscle", "sensor", "joint", "segment", "contact"]
 EdgeKind = Literal["synapse", "projection", "wire", "crossing", "structure"]
@@ -70,6 +71,19 @@ class Connection:
 
 
 @dataclass(frozen=True, slots=True)
+class Motion:
+    """Velocities at time zero.
+
+    Args:
+        joints: joint → velocity in rad/s, of a slide in m/s; those not named are at rest.
+        root: velocity of the root frame's origin in m/s, world axes.
+    """
+
+    joints: dict[str, float] = field(default_factory=dict)
+    root: tuple[float, float, float] = (0.0, 0.0, 0.0)
+
+
+@dataclass(frozen=True, slots=True)
 class BodyModel:
     """A body with qualified names throughout, in authored order; parents come before their children."""
 
@@ -81,6 +95,7 @@ class BodyModel:
     joints: dict[str, Joint]
     contacts: dict[str, Contact]
     world: World
+    motion: Motion = Motion()
 
 
 @dataclass(frozen=True, slots=True)

@@ -14,11 +14,12 @@ _SOURCE = '''"""Generated loop for {native} around {step}."""
 from {native} import read, step
 from {step} import BODY, CONTACTS, JOINTS, TORQUE, advance, tick
 
+from neuromech.compiler.ground import height_below
 from neuromech.compiler.numerics import compiled
 
 
 @compiled
-def run(first, last, dt, x, s, u, p, F, I, R, T, D, engine, lowest, least_cosine):
+def run(first, last, dt, x, s, u, p, F, I, R, T, D, engine, lowest, least_cosine, corners, steps):
     """Advance from body step `first` to `last`; return the step reached, why it ended, and which number is bad."""
     n, body = I[JOINTS], I[BODY]
     state = s[body : body + 2 * n + 13 + 3 * I[CONTACTS]]
@@ -30,7 +31,8 @@ def run(first, last, dt, x, s, u, p, F, I, R, T, D, engine, lowest, least_cosine
         if bad >= 0:
             return number, {torque}, bad
         tilt = 1.0 - 2.0 * (state[2 * n + 3] ** 2 + state[2 * n + 4] ** 2)
-        if state[2 * n + 2] < lowest or tilt < least_cosine:
+        height = state[2 * n + 2] - height_below(state[2 * n], state[2 * n + 1], corners, steps)
+        if height < lowest or tilt < least_cosine:
             return number, {fell}, 0
         bad = advance(number, dt, x, s, u, p, F, I)
         if bad >= 0:

@@ -10,9 +10,11 @@ import numpy as np
 
 from neuromech.bodies.base import Body
 from neuromech.bodies.factory import open_body
+from neuromech.compiler.ground import Surface
 from neuromech.compiler.numerics import Floats
 from neuromech.compiler.program import Memory, Program
 from neuromech.errors import RunError
+from neuromech.graph.model import BodyModel
 from neuromech.simulate.adaptive import breakpoints, integrate, is_adaptive, ticks_from
 from neuromech.simulate.compiled_loop import BAD_STATE, BAD_TORQUE, FELL, compiled_loop
 from neuromech.simulate.fall import FallRule
@@ -20,6 +22,7 @@ from neuromech.simulate.helpers import helpers
 from neuromech.simulate.initial import initial_states, rest_muscles
 from neuromech.simulate.recorder import Recorder
 from neuromech.simulate.recording import Outcome, Recording
+from neuromech.simulate.start import drawn_body
 
 Progress = Callable[[float], None]
 
@@ -113,10 +116,11 @@ def simulate(
     protocol = program.graph.document.experiment.protocol
     used_seed = protocol.seed if seed is None else seed
     ticks = round((float(protocol.duration) if duration is None else duration) / program.tick)
+    body = drawn_body(program.graph, used_seed)
     memory = program.memory()
     memory.x[:] = initial_states(program, used_seed)
     run = _Run(program, memory, Recorder(program, memory.I, ticks), ticks, used_seed, progress, checkpoint)
-    return run.recording(_with_body(run) if program.tree else _ended(run, _network))
+    return run.recording(_with_body(run, body) if body is not None else _ended(run, _network))
 
 
 def _ended(run: _Run, loop: Callable[[_Run], Outcome | None]) -> Outcome:
@@ -181,10 +185,7 @@ def _network_adaptive(run: _Run) -> Outcome | None:
     return None
 
 
-def _with_body(run: _Run) -> Outcome:
-    model = run.program.graph.body
-    if model is None:
-        raise ValueError("a program with a tree has a body")
+def _with_body(run: _Run, model: BodyModel) -> Outcome:
     with open_body(model, run.program.tick) as body:
         run.engine = str(body.engine)
         return _ended(run, lambda same: _body_loop(same, body))
@@ -201,15 +202,21 @@ def _body_loop(run: _Run, body: Body) -> Outcome | None:
     return _native_loop(run, body, body.native_module, native)
 
 
+def _fall_rule(run: _Run, body: Body) -> FallRule:
+    experiment = run.program.graph.document.experiment
+    return FallRule.of(experiment.protocol.fall, body.layout, Surface.of(experiment.world.ground))
+
+
 def _body_state(run: _Run, body: Body) -> Floats:
     return run.memory.s[run.program.header["body"] :][: body.layout.size]
 
 
 def _native_loop(run: _Run, body: Body, native_module: str, native: tuple[Any, ...]) -> Outcome | None:
     memory, dt = run.memory, run.program.tick
-    fall = FallRule.of(run.program.graph.document.experiment.protocol.fall, body.layout)
+    fall = _fall_rule(run, body)
     advance = compiled_loop(run.program, native_module).run
-    rest = (*memory.buffers, run.recorder.samples, memory.T, memory.D, native, fall.height, fall.least_cosine)
+    limits = (fall.height, fall.least_cosine, fall.surface.corners, fall.surface.steps)
+    rest = (*memory.buffers, run.recorder.samples, memory.T, memory.D, native, *limits)
 
     def chunk(last: int) -> Outcome | None:
         run.done, why, position = advance(run.done, last, dt, *rest)
@@ -229,7 +236,7 @@ def _method_loop(run: _Run, body: Body) -> Outcome | None:
     program, memory = run.program, run.memory
     state = _body_state(run, body)
     torque = memory.s[program.header["torque"] :][: body.layout.joints]
-    fall = FallRule.of(program.graph.document.experiment.protocol.fall, body.layout)
+    fall = _fall_rule(run, body)
     rest = (*memory.buffers, run.recorder.samples, memory.T, memory.D)
     advance = _adaptive_advance(program, memory) if is_adaptive(program) else program.module.advance
 

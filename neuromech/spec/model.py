@@ -12,11 +12,11 @@ from pydantic import Field, field_validator
 from neuromech.components.base import Drive, Muscle, Neuron, Sensor, SpecModel, Synapse
 from neuromech.spec.fields import KindFromKey, OfCatalogue
 from neuromech.spec.measure import Expected, Measure
-from neuromech.spec.scalars import Name, PositiveTime, Seed, Written
+from neuromech.spec.scalars import Name, PositiveTime, Seed, Vector, Written
 from neuromech.spec.study import Study
 from neuromech.spec.sweep import Sweep
+from neuromech.spec.world import World
 from neuromech.units import (
-    ACCELERATION,
     ANGLE,
     CONTACT_DAMPING,
     CONTACT_STIFFNESS,
@@ -33,8 +33,6 @@ from neuromech.units import (
     Quantity,
     quantity,
 )
-
-Vector = tuple[Length, Length, Length]
 
 
 class Parameter(SpecModel):
@@ -203,20 +201,6 @@ class Body(BodyParts):
     root: Root = Root()
 
 
-class Ground(SpecModel):
-    """A horizontal plane."""
-
-    height: Length = quantity("0 m")
-    friction: Annotated[Quantity, DIMENSIONLESS.non_negative] = quantity("1")
-
-
-class World(SpecModel):
-    """Gravity (downwards) and ground."""
-
-    gravity: Annotated[Quantity, ACCELERATION.non_negative] = quantity("9.81 m/s^2")
-    ground: Ground | None = None
-
-
 class Scope(SpecModel):
     """What a module holds, and the document holds too."""
 
@@ -269,7 +253,7 @@ class Event(SpecModel):
 class Fall(SpecModel):
     """When a body with a moving root counts as fallen: root too low, or tilted too far."""
 
-    height: Length | None = None
+    height: Annotated[Length | None, Field(description="lowest height of the root above the ground below it")] = None
     tilt: Annotated[Quantity, ANGLE.positive] | None = None
 
 

@@ -1,9 +1,13 @@
 """Small bodies whose motion is known, for the laws in `neuromech.testing.bodies`. All numbers in SI units."""
 
 from collections.abc import Sequence
+from dataclasses import replace
+from math import cos, sin
 
 from neuromech.graph.model import BodyModel
-from neuromech.spec.model import Contact, Ground, Joint, Root, Segment, World
+from neuromech.graph.terrain import terrain
+from neuromech.spec.model import Contact, Joint, Root, Segment
+from neuromech.spec.world import Ground, World
 from neuromech.units import Quantity
 
 PENDULUM_MASS = 0.3
@@ -84,6 +88,34 @@ def block(
         contacts=contacts,
         world=World(gravity=Quantity(GRAVITY), ground=Ground()),
     )
+
+
+def block_on(
+    ground: Ground,
+    x: float,
+    height: float,
+    friction: float = 1.0,
+    angle: float = 0.0,
+    stiffness: float | None = None,
+    damping: float | None = None,
+) -> BodyModel:
+    """Return the block with its feet parallel to ground that rises by an angle along x.
+
+    Args:
+        ground: without steps, or with steps as high as the ground is meant to be.
+        x: of the root frame, in m.
+        height: of the undersides of the feet above the ground, along its normal, in m.
+        friction: of the feet.
+        angle: of the ground, in rad.
+        stiffness: of the feet, in N/m.
+        damping: of the feet, in N s/m.
+    """
+    lying = block(0.0, "free", (0.0, -angle, 0.0), friction, stiffness, damping)
+    normal = (-sin(angle), cos(angle))
+    away = 0.06 + height
+    z = terrain(ground).height(x, 0.0) + away * normal[1]
+    root = lying.root.model_copy(update={"position": vector(x + away * normal[0], 0.0, z)})
+    return replace(lying, root=root, world=World(gravity=Quantity(GRAVITY), ground=ground))
 
 
 def sled(friction: float) -> BodyModel:

@@ -7,6 +7,7 @@ from pydantic_core import PydanticCustomError
 from neuromech.errors import Problem, did_you_mean
 from neuromech.graph.model import ModelGraph
 from neuromech.graph.signals import matching, signals, sizes, split, states
+from neuromech.graph.start import start_units
 from neuromech.spec.measure import Measure
 from neuromech.spec.model import Experiment, Uniform
 from neuromech.units import Unit
@@ -46,8 +47,8 @@ def _measures(experiment: Experiment) -> Iterator[tuple[str, Measure]]:
 
 
 def initial_matches_nothing(graph: ModelGraph) -> Iterator[Problem]:
-    """Each pattern of `protocol.initial` matches a state."""
-    every = list(states(graph))
+    """Each pattern of `protocol.initial` matches a state, or how a body can start."""
+    every = list(_starts(graph))
     for pattern in graph.document.experiment.protocol.initial:
         if not matching(pattern, every, sizes(graph)):
             path = f"protocol.initial.{pattern}"
@@ -57,7 +58,7 @@ def initial_matches_nothing(graph: ModelGraph) -> Iterator[Problem]:
 
 def initial_of_wrong_unit(graph: ModelGraph) -> Iterator[Problem]:
     """A value at time zero has the dimension of the states that it sets."""
-    every = states(graph)
+    every = _starts(graph)
     for pattern, value in graph.document.experiment.protocol.initial.items():
         path = f"protocol.initial.{pattern}"
         values: tuple[object, ...] = (value,)
@@ -65,6 +66,10 @@ def initial_of_wrong_unit(graph: ModelGraph) -> Iterator[Problem]:
             path, values = f"{path}.uniform", value.uniform
         for unit in dict.fromkeys(_units(pattern, every, sizes(graph))):
             yield from _unit_problems(graph, path, values, unit)
+
+
+def _starts(graph: ModelGraph) -> dict[str, str]:
+    return states(graph) | (start_units(graph.body) if graph.body else {})
 
 
 def _units(pattern: str, every: dict[str, str], populations: dict[str, int]) -> Iterator[str]:

@@ -14,7 +14,8 @@ from neuromech.bodies import bullet_c, bullet_native
 from neuromech.bodies.pybullet import PyBulletBody, usual_path
 from neuromech.errors import DocumentError, RunError
 from neuromech.pipeline import build_graph, load_document
-from neuromech.spec.model import Contact, World
+from neuromech.spec.model import Contact
+from neuromech.spec.world import World
 from neuromech.testing.bodies import run
 from neuromech.testing.body_models import block, chains, pendulum, vector
 from neuromech.units import Quantity

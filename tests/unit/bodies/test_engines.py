@@ -13,7 +13,8 @@ from neuromech.bodies.hinge import HingeBody
 from neuromech.bodies.pybullet import PyBulletBody
 from neuromech.bodies.urdf import urdf_text
 from neuromech.errors import DocumentError
-from neuromech.spec.model import CapsuleShape, Contact, Ground, Joint, Root, World
+from neuromech.spec.model import CapsuleShape, Contact, Joint, Root
+from neuromech.spec.world import Ground, World
 from neuromech.testing.bodies import run
 from neuromech.testing.body_models import PENDULUM_INERTIA, block, chains, pendulum, segment, vector
 from neuromech.units import Quantity

@@ -17,7 +17,8 @@ from neuromech.bodies.mujoco import MujocoBody
 from neuromech.bodies.pybullet import PyBulletBody
 from neuromech.errors import DocumentError, MissingExtraError, RunError
 from neuromech.pipeline import build_graph, load_document
-from neuromech.spec.model import BoxShape, CapsuleShape, Contact, Ground, Root, World
+from neuromech.spec.model import BoxShape, CapsuleShape, Contact, Root
+from neuromech.spec.world import Ground, World
 from neuromech.testing.bodies import run
 from neuromech.testing.body_models import block, chains, pendulum, segment, vector
 from neuromech.units import Quantity

@@ -15,7 +15,8 @@ from neuromech.compiler.kinematics import (
 )
 from neuromech.compiler.tree import HINGE, SLIDE, lower_tree
 from neuromech.graph.model import BodyModel
-from neuromech.spec.model import Contact, Joint, Root, World
+from neuromech.spec.model import Contact, Joint, Root
+from neuromech.spec.world import World
 from neuromech.testing.body_models import segment, vector
 from neuromech.units import Quantity
 

@@ -93,7 +93,7 @@ QUADRUPED_HALF: dict[str, Any] = {
     },
     "instances": {"LF": LEG, "RF": LEG},
     "body": {"segments": {"trunk": BRICK}, "root": {"kind": "free"}},
-    "world": {"ground": {}},
+    "world": {"ground": {"height": "-1 m"}},
     "protocol": {"duration": "1 s", "initial": {"*.inactivation": {"uniform": [0.3, 0.6]}}},
     "record": {"neurons": {"signals": ["*.activity"], "every": "1 ms"}},
 }

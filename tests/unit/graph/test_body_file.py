@@ -10,7 +10,8 @@ from neuromech.compiler.kinematics import forward_kinematics
 from neuromech.compiler.tree import lower_tree
 from neuromech.graph.body_file import read_body_file
 from neuromech.graph.model import BodyModel
-from neuromech.spec.model import Root, World
+from neuromech.spec.model import Root
+from neuromech.spec.world import World
 
 URDF = """<?xml version="1.0"?>
 <robot name="leg">

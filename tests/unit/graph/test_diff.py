@@ -33,7 +33,7 @@ def invert(raw):
 
 
 def float_away(raw):
-    raw["world"] = {"gravity": "0 m/s^2", "ground": {}}
+    raw["world"] = {"gravity": "0 m/s^2", "ground": {"height": "-1 m"}}
     raw["body"]["root"]["kind"] = "planar"
     raw["protocol"]["duration"] = "2 s"
     raw["solver"] = {"method": "exponential_euler"}

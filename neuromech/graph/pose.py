@@ -1,0 +1,103 @@
+"""Where the contacts of a body are at time zero, and how far from the ground. In plain floats: rules ask for it."""
+
+from math import cos, hypot, sin, sqrt
+from typing import Final
+
+from neuromech.graph.model import BodyModel
+from neuromech.graph.terrain import Terrain, terrain
+from neuromech.spec.model import Joint
+
+Vector = tuple[float, float, float]
+Matrix = tuple[Vector, Vector, Vector]
+
+# Share of its radius by which a sphere may stand in the ground at time zero.
+_ALLOWED: Final = 0.1
+# Shares of its radius at which the underside of a sphere is looked at, along x and along y.
+_SHARES: Final = tuple(k / 10.0 for k in range(-10, 11))
+
+
+def contact_centers(body: BodyModel) -> dict[str, Vector]:
+    """Return the centre of each contact sphere in the world in m, at the initial angles and the first root pose."""
+    x, y, z = map(float, body.root.position)
+    frames = {body.root_segment: (_root_rotation(*map(float, body.root.orientation)), (x, y, z))}
+    for name in body.joints:
+        joint = body.joints[name]
+        frames[joint.child] = _moved(*frames[joint.parent], joint)
+    centers = {}
+    for name, contact in body.contacts.items():
+        rotation, origin = frames[contact.segment]
+        centers[name] = _added(origin, _turned(rotation, contact.position))
+    return centers
+
+
+def clearances(body: BodyModel) -> dict[str, float]:
+    """Return by how much in m each contact sphere can sink, upright, until it touches the ground; negative in it."""
+    ground = body.world.ground
+    if ground is None:
+        return {}
+    below = terrain(ground)
+    centers = contact_centers(body)
+    return {name: _clearance(below, centers[name], float(body.contacts[name].radius)) for name in body.contacts}
+
+
+def sunk(body: BodyModel) -> tuple[str, float] | None:
+    """Return the contact that starts deepest in the ground and its depth in m, None where all stand on or above it.
+
+    A tenth of a sphere's radius counts as standing on it.
+    """
+    depths = {name: -gap - _ALLOWED * float(body.contacts[name].radius) for name, gap in clearances(body).items()}
+    name = max(depths, key=depths.__getitem__, default="")
+    return (name, -clearances(body)[name]) if name and depths[name] > 0.0 else None
+
+
+def _clearance(below: Terrain, center: Vector, radius: float) -> float:
+    x, y, z = center
+    if below.plane is not None and not below.steps:
+        return z - radius - below.plane[0]
+    gaps = (
+        z - radius * sqrt(1.0 - min(1.0, u * u + v * v)) - below.height(x + radius * u, y + radius * v)
+        for u in _SHARES
+        for v in (_SHARES if below.steps else (0.0,))
+        if u * u + v * v <= 1.0
+    )
+    return min(gaps)
+
+
+def _moved(rotation: Matrix, origin: Vector, joint: Joint) -> tuple[Matrix, Vector]:
+    length = hypot(*joint.axis)
+    x, y, z = (float(part) / length for part in joint.axis)
+    angle = float(joint.initial_angle)
+    at = (float(joint.position[0]), float(joint.position[1]), float(joint.position[2]))
+    if joint.kind == "slide":
+        return rotation, _added(origin, _turned(rotation, _added(at, (angle * x, angle * y, angle * z))))
+    return _product(rotation, _rotation(x, y, z, angle)), _added(origin, _turned(rotation, at))
+
+
+def _root_rotation(roll: float, pitch: float, yaw: float) -> Matrix:
+    turned = _product(_rotation(0.0, 0.0, 1.0, yaw), _rotation(0.0, 1.0, 0.0, pitch))
+    return _product(turned, _rotation(1.0, 0.0, 0.0, roll))
+
+
+def _rotation(x: float, y: float, z: float, angle: float) -> Matrix:
+    """Return the rotation about a unit vector by Rodrigues' formula."""
+    c, s = cos(angle), sin(angle)
+    d = 1.0 - c
+    return (
+        (c + d * x * x, d * x * y - s * z, d * x * z + s * y),
+        (d * x * y + s * z, c + d * y * y, d * y * z - s * x),
+        (d * x * z - s * y, d * y * z + s * x, c + d * z * z),
+    )
+
+
+def _product(one: Matrix, other: Matrix) -> Matrix:
+    first, second, third = (_turned(one, column) for column in zip(*other, strict=True))
+    return tuple(zip(first, second, third, strict=True))  # type: ignore[return-value]
+
+
+def _turned(rotation: Matrix, vector: Vector) -> Vector:
+    x, y, z = (row[0] * vector[0] + row[1] * vector[1] + row[2] * vector[2] for row in rotation)
+    return x, y, z
+
+
+def _added(one: Vector, other: Vector) -> Vector:
+    return one[0] + other[0], one[1] + other[1], one[2] + other[2]
