@@ -27,7 +27,7 @@ def angle_starts_outside_range(graph: ModelGraph) -> Iterator[Problem]:
             continue
         for angle in dict.fromkeys((low, high)):
             if not joint.range[0] <= angle <= joint.range[1]:
-                path = f"protocol.initial.{pattern}"
+                path = _path(graph, pattern)
                 limits = f"[{degrees(joint.range[0]):g} deg, {degrees(joint.range[1]):g} deg]"
                 message = f"is outside the range of joint '{name.removesuffix('.angle')}', {limits}"
                 yield graph.document.problem("joint-range", path, message, f"{degrees(angle):g} deg")
@@ -65,8 +65,13 @@ def _height_path(graph: ModelGraph, body: BodyModel) -> str:
     start = _start(graph)
     for name in (f"{body.root_segment}.{CLEARANCE}", f"{body.root_segment}.z"):
         if name in start:
-            return f"protocol.initial.{start[name][0]}"
-    return next((f"protocol.initial.{pattern}" for pattern, low, high in start.values() if low < high), "")
+            return _path(graph, start[name][0])
+    return next((_path(graph, pattern) for pattern, low, high in start.values() if low < high), "")
+
+
+def _path(graph: ModelGraph, pattern: str) -> str:
+    value = graph.document.experiment.protocol.initial[pattern]
+    return f"protocol.initial.{pattern}" + (".uniform" if isinstance(value, Uniform) else "")
 
 
 def _lowest(body: BodyModel, start: Start) -> BodyModel:
