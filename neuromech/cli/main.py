@@ -21,6 +21,10 @@ Output = Annotated[Path | None, typer.Option(metavar="FILE", help="Where to writ
 AsJson = Annotated[bool, typer.Option("--json", help="Write JSON to stdout instead of a table.")]
 Storage = Annotated[str, typer.Argument(metavar="STORAGE", help="Database of a study: a file or a URL.")]
 StudyName = Annotated[str | None, typer.Option("--name", help="Which study, where the database has several.")]
+Workers = Annotated[
+    int | None, typer.Option(min=1, metavar="N", help="Runs side by side; default: as many as there are cores.")
+]
+Dask = Annotated[str | None, typer.Option(metavar="ADDRESS", help="Dask scheduler whose workers do the runs.")]
 Seeds = Annotated[int | None, typer.Option(min=1, help="Repeat each claim over this many seeds.")]
 
 app = typer.Typer(
@@ -170,6 +174,37 @@ def components(
     from neuromech.cli.components import components
 
     return components(kind)
+
+
+@app.command()
+@exits
+def sweep(
+    spec: Spec,
+    names: Annotated[
+        list[str] | None, typer.Argument(metavar="[NAME]…", help="Sweeps of the document; default: all.")
+    ] = None,
+    overrides: Overrides = None,
+    workers: Workers = None,
+    dask: Dask = None,
+    out: Annotated[
+        Path | None, typer.Option(metavar="DIR", help="Output folder; default: results/<name>/sweeps.")
+    ] = None,
+    restart: Annotated[bool, typer.Option("--restart", help="Forget the runs of an interrupted sweep.")] = False,
+    as_json: AsJson = False,
+    figures: Annotated[bool, typer.Option("--figures/--no-figures", help="Draw figures.", show_default=False)] = True,
+    quiet: Annotated[bool, typer.Option("--quiet", help="No progress bar and no tables.")] = False,
+) -> int:
+    """Vary parameters as a document's sweeps say, and measure.
+
+    Gives a results file with labelled arrays, and figures. An interrupted sweep goes on where it was.
+    """
+    with without_banners():
+        from neuromech.cli.sweep import Request, sweep
+
+    request = Request(
+        spec, tuple(names or ()), tuple(overrides or ()), workers, dask, out, restart, as_json, figures, quiet
+    )
+    return sweep(request)
 
 
 @app.command()

@@ -1,6 +1,7 @@
 """One self-describing results file per run: NetCDF4, complete or not there at all."""
 
 import os
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -22,9 +23,20 @@ def save(recording: Recording, file: Path) -> None:
     Raises:
         RecordingError: the file cannot be written.
     """
+    tree = recording.tree.copy()
+    tree.attrs = {**tree.attrs, "format": FORMAT}
+    write_complete(tree, file)
+
+
+def write_complete(tree: xr.DataTree, file: Path) -> None:
+    """Write labelled arrays to a NetCDF4 file that gets its name only when it is complete.
+
+    Raises:
+        RecordingError: the file cannot be written.
+    """
     try:
         file.parent.mkdir(parents=True, exist_ok=True)
-        _write_and_rename(recording, file)
+        _write_and_rename(tree, file)
     except OSError as error:
         raise RecordingError(f"{file} cannot be written: {error}") from error
 
@@ -47,27 +59,24 @@ def load(file: Path) -> Recording:
         raise _foreign(file) from error
 
 
-def _write_and_rename(recording: Recording, file: Path) -> None:
+def _write_and_rename(tree: xr.DataTree, file: Path) -> None:
     partial = file.with_name(f".{file.name}.{os.getpid()}.partial")
     try:
-        _write(recording, partial)
+        tree.to_netcdf(partial, engine="h5netcdf", encoding=_encoding(tree))
         os.replace(partial, file)
     finally:
         partial.unlink(missing_ok=True)
 
 
-def _write(recording: Recording, file: Path) -> None:
-    tree = recording.tree.copy()
-    tree.attrs = {**tree.attrs, "format": FORMAT}
-    tree.to_netcdf(file, engine="h5netcdf", encoding=_encoding(tree))
-
-
 def _encoding(tree: xr.DataTree) -> dict[str, dict[str, Any]]:
     """Compress variables; keep xarray from adding fill values, which would make missing data out of NaN."""
-    return {
-        node.path: {str(name): _COMPRESSION for name in node.data_vars} | {"time": {"_FillValue": None}}
-        for node in tree.children.values()
-    }
+    return {node.path: dict(_of_variables(node.to_dataset())) for node in tree.subtree}
+
+
+def _of_variables(data: xr.Dataset) -> Iterator[tuple[str, dict[str, Any]]]:
+    for name, variable in data.variables.items():
+        if variable.dtype.kind == "f":
+            yield str(name), _COMPRESSION if name in data.data_vars else {"_FillValue": None}
 
 
 def _foreign(file: Path) -> RecordingError:

@@ -1,7 +1,7 @@
 """What a study is: written when it begins, compared when it is continued."""
 
 import hashlib
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass
 from importlib.metadata import version
 from typing import Any, Self
@@ -55,12 +55,11 @@ class Header:
         study = document.experiment.study
         if study is None:
             raise ValueError("a document without a study has no header of one")
-        body = body_file(document)
         return cls(
             document=document.experiment.name,
             file=str(document.file),
             specification=document.text,
-            body=None if body is None else hashlib.sha256(body.read_bytes()).hexdigest(),
+            body=body_digest(document),
             seed=study.seed,
             units={dimension.name: dimension.unit for dimension in Space.of(document).dimensions},
             stages=tuple(study.objective.stages),
@@ -81,12 +80,10 @@ class Header:
 
         Names, descriptions, references, claims, sweeps and the number of evaluations are free to change.
         """
-        old, new = _values(self.specification), _values(now.specification)
-        paths = sorted({**old, **new})
-        found = [Change(path, old.get(path, ABSENT), new.get(path, ABSENT)) for path in paths]
+        found = changes_of(self.specification, now.specification, _is_free)
         if self.body != now.body:
             found.append(Change("content of body.file", str(self.body)[:12], str(now.body)[:12]))
-        return [change for change in found if change.old != change.new]
+        return found
 
     def other_versions(self, now: Self) -> list[Change]:
         """Return the packages that are another version now; numbers may differ in their last bits."""
@@ -94,17 +91,38 @@ class Header:
         return [Change(name, old, new) for name, old, new in pairs if old != new]
 
 
-def _values(specification: str) -> dict[str, str]:
-    """Return path -> text of every single value of a resolved document that a study depends on."""
+def changes_of(old: str, new: str, is_free: Callable[[str], bool]) -> list[Change]:
+    """Return in which single values two resolved documents differ, by path, but for those that are free to."""
+    before, now = _values(old, is_free), _values(new, is_free)
+    paths = sorted({**before, **now})
+    changes = (Change(path, before.get(path, ABSENT), now.get(path, ABSENT)) for path in paths)
+    return [change for change in changes if change.old != change.new]
+
+
+def body_digest(document: Document) -> str | None:
+    """Return the SHA-256 of the file that the body comes from, None without one.
+
+    Raises:
+        OSError: the file cannot be read.
+    """
+    body = body_file(document)
+    return None if body is None else hashlib.sha256(body.read_bytes()).hexdigest()
+
+
+def is_free_parameter_text(path: str) -> bool:
+    """Tell whether a path is about words of a parameter that no number depends on."""
+    first, _, rest = path.partition(".")
+    return first == "parameters" and rest.rpartition(".")[2] in _FREE_OF_PARAMETERS
+
+
+def _values(specification: str, is_free: Callable[[str], bool]) -> dict[str, str]:
+    """Return path -> text of every single value of a resolved document that is not free."""
     try:
         nodes = Positions.of(parse(specification.encode(), "stored document")).nodes
     except DocumentError as error:
         raise ValueError(f"a resolved document cannot be read: {error}") from error
-    return {path: node.text for path, node in nodes.items() if isinstance(node, ScalarNode) and not _is_free(path)}
+    return {path: node.text for path, node in nodes.items() if isinstance(node, ScalarNode) and not is_free(path)}
 
 
 def _is_free(path: str) -> bool:
-    first, _, rest = path.partition(".")
-    if first == "parameters":
-        return rest.rpartition(".")[2] in _FREE_OF_PARAMETERS
-    return any(path == free or path.startswith(f"{free}.") for free in _FREE)
+    return is_free_parameter_text(path) or any(path == free or path.startswith(f"{free}.") for free in _FREE)

@@ -1,0 +1,1 @@
+"""Sweeps: points of a design, runs at them, what was measured as one dataset."""
