@@ -11,6 +11,9 @@ from neuromech.units import measure
 
 NO_LIMIT = math.inf
 
+MOST_POINTS = 1e100
+"""No term counts more than this, for or against, so that sums stay finite."""
+
 
 @dataclass(frozen=True, slots=True)
 class Points:
@@ -65,7 +68,7 @@ class Points:
             return max(self.worst, self.direction * min(value, self.high) / self.scale)
         deviation = max(self.low - value, value - self.high, 0.0)
         if self.shape == "saturating":
-            return -deviation / (self.scale + deviation)
+            return -1.0 / (1.0 + self.scale / deviation) if deviation > 0.0 else 0.0
         return max(self.worst, -deviation / self.scale)
 
 
@@ -97,7 +100,7 @@ class JudgedTerm:
         if self.points is None:
             return 0.0 if value == self.term.equals else -float(self.term.weight)
         points = self.points.worst if isinstance(value, str) else self.points.of_value(value)
-        return float(self.term.weight) * points
+        return max(-MOST_POINTS, min(MOST_POINTS, float(self.term.weight) * points))
 
 
 def _si(written: str | int | float | None) -> float | None:

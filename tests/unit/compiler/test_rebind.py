@@ -1,0 +1,89 @@
+"""A program whose parameters were rewritten is the one that lowering the changed document gives."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from neuromech.compiler.lower import lower
+from neuromech.compiler.rebind import fixed_uses, rebound
+from neuromech.pipeline import build_graph, load_document
+from neuromech.units import measure
+
+CAT = Path(__file__).parents[3] / "specs" / "cat" / "quadruped_body.yaml"
+WEIGHTS = ("contralateral_inhibition", "joint_damping", "activation_gain", "passive_scale", "drive", "fictive_load")
+
+LEG = {
+    "parameters": {
+        "mass": {"value": "1 kg"},
+        "damping": {"value": "0.1 N m s/rad"},
+        "start": {"value": "-50 mV"},
+        "drive": {"value": 1},
+        "gain": {"value": 0.5},
+    },
+    "network": {
+        "neurons": {"cell": {"kind": "rybak_interneuron", "initial_potential": "${start}"}},
+        "drives": {"go": {"kind": "descending_drive", "strength": "${drive}"}},
+        "synapses": {"excitatory": {"go": {"cell": "${gain}"}}},
+    },
+    "body": {
+        "engine": "hinge",
+        "segments": {
+            "trunk": {"mass": "1 kg", "inertia": ["1 kg m^2"] * 3},
+            "leg": {"mass": "${mass}", "inertia": ["1 kg m^2"] * 3},
+        },
+        "joints": {
+            "hip": {
+                "parent": "trunk",
+                "child": "leg",
+                "position": ["0 m"] * 3,
+                "axis": [0, 1, 0],
+                "damping": "${damping}",
+            }
+        },
+    },
+    "protocol": {"duration": "1 s", "events": {"more": {"at": "0.5 s", "set": {"drive": 2}}}},
+}
+
+
+def program(file, values=None):
+    overrides = [f"parameters.{name}.value={text}" for name, text in (values or {}).items()]
+    return lower(build_graph(load_document(file, overrides)))
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_rewritten_and_lowered_anew_are_the_same_numbers(seed):
+    generator = np.random.default_rng(seed)
+    own = load_document(CAT).experiment.parameters
+    values = {}
+    for name in WEIGHTS:
+        least, most = (measure(bound)[0] for bound in (own[name].minimum, own[name].maximum))
+        _, _, unit = str(own[name].value).partition(" ")
+        values[name] = f"{generator.uniform(least, most)!r} {unit}".strip()
+    original, expected = program(CAT), program(CAT, values)
+    assert fixed_uses(original, frozenset(values)) == []
+    found = rebound(original, {name: measure(text)[0] for name, text in values.items()})
+    assert found.parameters.tobytes() == expected.parameters.tobytes() != original.parameters.tobytes()
+    assert found.integers.tobytes() == expected.integers.tobytes()
+    assert found.initial.tobytes() == expected.initial.tobytes()
+    assert found.source == expected.source
+
+
+@pytest.mark.parametrize(
+    ("name", "where"),
+    [
+        ("mass", ["body.segments.leg.mass"]),
+        ("start", ["network.neurons.cell.initial_potential"]),
+        ("drive", ["protocol.events.more"]),
+        ("damping", []),
+        ("gain", []),
+    ],
+)
+def test_what_lowering_looks_at_cannot_be_rewritten(document, name, where):
+    assert fixed_uses(program(document(LEG)), frozenset({name})) == where
+
+
+def test_a_ramp_counts_as_well(document):
+    ramp = {"ramps": {"up": {"parameter": "gain", "start": "0 s", "end": "1 s", "to": 1}}}
+    changed = LEG | {"protocol": LEG["protocol"] | ramp}
+    assert fixed_uses(program(document(changed)), frozenset({"gain"})) == ["protocol.ramps.up"]
