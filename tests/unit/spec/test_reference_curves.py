@@ -1,5 +1,7 @@
 """Reference curves: the numbers of a table are part of the document that names it."""
 
+from pathlib import Path
+
 import pytest
 from diagnose import diagnose
 
@@ -54,6 +56,25 @@ def test_the_resolved_document_holds_the_numbers(folder):
     (folder / "parts" / "tables" / "walk.csv").unlink()
     (folder / "resolved.yaml").write_text(document.text, encoding="utf-8")
     assert curve_of(folder / "resolved.yaml").values == document.experiment.claims["knee"].measure.curve.values
+
+
+@pytest.mark.parametrize(
+    ("name", "column", "size", "peak", "at"),
+    [
+        ("human_walking", "knee_deg", 50, 60.0, 72.0),
+        ("human_walking", "vertical_force_bw", 50, 1.10, 14.0),
+        ("cat_forelimb_walking", "vertical_force_bw", 101, 0.58, 82.0),
+    ],
+)
+def test_shipped_tables_hold_what_their_sources_tell(folder, name, column, size, peak, at):
+    table = Path(__file__).parents[3] / "specs" / "data" / f"{name}.csv"
+    text = DOCUMENT.replace("tables/walk.csv", str(table)).replace("[-hip_deg, knee_deg]", f"[{column}]")
+    (folder / "shipped.yaml").write_text(text, encoding="utf-8")
+    curve = curve_of(folder / "shipped.yaml")
+    assert len(curve.phases) == size
+    (values,) = curve.values
+    assert max(values) == pytest.approx(peak, rel=0.15)
+    assert curve.phases[values.index(max(values))] == pytest.approx(at, abs=5.0)
 
 
 def test_a_curve_with_a_file_and_values(folder):
