@@ -6,6 +6,7 @@ from rich.table import Table
 from rich.text import Text
 
 from neuromech.analyse.measures import MeasuredValue, measure
+from neuromech.analyse.phases import GAITS
 from neuromech.report.layout import by_scope
 from neuromech.simulate.recording import Recording
 from neuromech.spec.measure import Measure
@@ -42,11 +43,14 @@ def gait_measures(recording: Recording) -> Found:
 
 
 def gait_table(recording: Recording) -> Table | None:
-    """Return the gait, one line for each leg; None where no foot carries load."""
+    """Return the gait, one line for each leg; None where no foot carries load.
+
+    What cannot be measured is a dash, and the caption says why.
+    """
     found = gait_measures(recording)
     if not found:
         return None
-    table = Table(title=_title(found), title_justify="left")
+    table = Table(title=_title(found), title_justify="left", caption=_reasons(found) or None, caption_justify="left")
     table.add_column("leg")
     for heading in ("cycle (s)", "stance (s)", "swing (s)", "duty factor", "phase"):
         table.add_column(heading, justify="right", overflow="fold")
@@ -83,11 +87,17 @@ def _take(recording: Recording, kind: str, **arguments: object) -> MeasuredValue
 
 
 def _title(found: Found) -> str:
-    parts = ["gait"]
-    parts += [_text(value) for value in found.get("gait", {}).values()]
-    parts += [f"{_text(value)} m/s" for value in found.get("speed", {}).values() if isinstance(value.value, float)]
-    return ": ".join((parts[0], ", ".join(parts[1:]))) if parts[1:] else parts[0]
+    gaits = [value.value for value in found.get("gait", {}).values() if value.value in GAITS]
+    speeds = [value.value for value in found.get("speed", {}).values()]
+    words = [str(name) for name in gaits] + [f"{speed:.3g} m/s" for speed in speeds if isinstance(speed, float)]
+    return f"gait: {', '.join(words)}" if words else "gait"
+
+
+def _reasons(found: Found) -> str:
+    """Return why some of the table is empty, each reason once."""
+    values = [value.value for kind in (*_OF_EACH_FOOT, "interlimb_phase") for value in found[kind].values()]
+    return "; ".join(dict.fromkeys(value for value in values if isinstance(value, str)))
 
 
 def _text(value: MeasuredValue) -> str:
-    return value.value if isinstance(value.value, str) else f"{value.value:.3g}"
+    return "–" if isinstance(value.value, str) else f"{value.value:.3g}"

@@ -2,11 +2,13 @@
 
 import numpy as np
 import pytest
-from conftest import PERIOD
 from rich.console import Console
 
 from neuromech.report.gait import gait_measures, gait_table
 from neuromech.simulate.recording import Outcome
+
+PERIOD = 0.457
+"""Period of the synthetic cat (s)."""
 
 
 def printed(table):
@@ -48,6 +50,13 @@ def test_heel_and_toe_of_a_biped_are_one_foot(record):
     assert [value.value for value in found["duty_factor"].values()] == pytest.approx([0.6, 0.6], abs=2e-3)
     assert "gait" not in found
     assert "speed" not in found
+
+
+def test_what_cannot_be_measured_is_a_dash_with_its_reason_below(cat):
+    lines = printed(gait_table(cat(load=3.0, seconds=2.0))).splitlines()
+    assert lines[0].strip() == "gait: 0 m/s"
+    assert [cell.strip() for cell in lines[4].split("│")[1:-1]] == ["LF", "–", "–", "–", "–", "0"]
+    assert " ".join(lines[-2:]).strip().startswith("LF.* makes fewer than 3 strides; RF.* makes")
 
 
 def test_feet_in_the_air_have_no_gait(cat):
