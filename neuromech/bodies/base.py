@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from neuromech.compiler.body_state import BodyState
-from neuromech.errors import Problem
+from neuromech.errors import Problem, RunError
 from neuromech.graph.model import BodyModel
 from neuromech.spec.model import Root
 
@@ -48,9 +48,10 @@ class Body(ABC):
         step_seconds: time by which one step advances the body.
         engine: what moves the body.
         layout: where things stand in the state array.
-        native_module: module with the compiled functions `read(engine, state)` and `step(engine, torque)`, None
-            where the engine has none. They do what the methods do, to the last bit. Instead of raising they return an
-            integer: 0, or another number where the engine failed; `check` tells why.
+        native_module: module with the compiled functions `read(engine, state)`, `step(engine, torque)` and
+            `push(engine, segment, acting)`, None where the engine has none. They do what the methods do, to the last
+            bit. Instead of raising they return an integer: 0, or another number where the engine failed; `check`
+            tells why.
     """
 
     native_module: ClassVar[str | None] = None
@@ -78,6 +79,18 @@ class Body(ABC):
         Raises:
             RunError: the engine failed, or the body is closed.
         """
+
+    def push(self, segment: int, acting: Floats) -> None:
+        """Let a force act on a segment during the next step, beside those that act already.
+
+        Args:
+            segment: row of the segment, in the order of the body.
+            acting: (9,) force in N, the point where it acts and the centre of mass of the segment in m, world axes.
+
+        Raises:
+            RunError: the engine knows no pushes, or failed, or the body is closed.
+        """
+        raise RunError(f"engine '{self.engine.name}' knows no pushes")
 
     @abstractmethod
     def reset(self, angles: Sequence[float] | Floats, velocities: Sequence[float] | Floats | None = None) -> None:

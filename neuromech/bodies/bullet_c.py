@@ -72,6 +72,8 @@ _SIGNATURES: Final[dict[str, tuple[Any, ...]]] = {
     "b3CreatePoseCommandSetBaseAngularVelocity": (_I, _P, _P),
     "b3CreatePoseCommandSetJointPosition": (_I, _P, _P, _I, _D),
     "b3CreatePoseCommandSetJointVelocity": (_I, _P, _P, _I, _D),
+    "b3ApplyExternalForceCommandInit": (_P, _P),
+    "b3ApplyExternalForce": (None, _P, _I, _I, _P, _P, _I),
     "b3RequestActualStateCommandInit": (_P, _P, _I),
     "b3InitRequestContactPointInformation": (_P, _P),
     "b3SetContactFilterBodyA": (None, _P, _I),

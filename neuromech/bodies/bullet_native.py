@@ -41,6 +41,8 @@ _CALLS: Final = (
     "b3JointControlCommandInit2",
     "b3JointControlSetDesiredForceTorque",
     "b3InitStepSimulationCommand",
+    "b3ApplyExternalForceCommandInit",
+    "b3ApplyExternalForce",
     "b3SubmitClientCommand",
     "b3ProcessServerStatus",
     "b3GetStatusType",
@@ -55,11 +57,14 @@ _CALLS: Final = (
     _CONTROL,
     _SET_TORQUE,
     _STEP,
+    _PUSH,
+    _SET_PUSH,
     _SUBMIT,
     _ANSWER,
     _STATUS,
 ) = range(len(_CALLS))
 _TORQUE_CONTROL: Final = 1
+_WORLD_FRAME: Final = 2
 _HAS_STATE: Final = 21
 _STEPPED: Final = 26
 
@@ -79,6 +84,7 @@ _of_client = foreign_function(ADDRESS, ADDRESS)
 _of_robot = foreign_function(ADDRESS, ADDRESS, INT)
 _control = foreign_function(ADDRESS, ADDRESS, INT, INT)
 _set_torque = foreign_function(INT, ADDRESS, INT, DOUBLE)
+_set_push = foreign_function(NOTHING, ADDRESS, INT, INT, ADDRESS, ADDRESS, INT)
 _filter = foreign_function(NOTHING, ADDRESS, INT)
 _submit = foreign_function(INT, ADDRESS, ADDRESS)
 _status = foreign_function(INT, ADDRESS)
@@ -99,6 +105,7 @@ class BulletEngine(NamedTuple):
         constants: first pose of the root frame (7), centre of mass of the root segment in its frame (3), height
             above which each contact is clear of the ground.
         answer: room for what Bullet answers.
+        links: Bullet's link number of each segment, −1 of the root link.
     """
 
     calls: Integers
@@ -108,6 +115,7 @@ class BulletEngine(NamedTuple):
     rows: Integers
     constants: Floats
     answer: Integers
+    links: Integers
 
 
 class NativeMotion:
@@ -134,6 +142,10 @@ class NativeMotion:
         if step(self._engine, torque):
             self.check()
 
+    def push(self, segment: int, acting: Floats) -> None:
+        """Let a force act on a segment during the next step."""
+        push(self._engine, segment, acting)
+
     def native(self) -> BulletEngine:
         """Return what the compiled functions take."""
         return self._engine
@@ -159,6 +171,7 @@ def _engine(client: CClient, world: BulletWorld) -> BulletEngine:
         rows=rows,
         constants=np.array([*world.root_pose, *world.center, *world.clear_heights]),
         answer=np.zeros(3, dtype=np.int64),
+        links=np.array(world.links, dtype=np.int64),
     )
 
 
@@ -211,6 +224,16 @@ def step(engine: BulletEngine, torque: Floats) -> int:
             _set_torque(calls[_SET_TORQUE], (command, engine.velocities[joint], torque[joint]))
         _submit(calls[_SUBMIT], (world[CLIENT], command))
     return int(advance(engine))
+
+
+@partial(_exact, keep=True)
+def push(engine: BulletEngine, segment: int, acting: Floats) -> int:
+    """Let a force act on a segment during the next step; `acting` (9,) as in `Body.push`. Returns 0."""
+    calls, world, force = engine.calls, engine.world, acting.ctypes.data
+    command = _of_client(calls[_PUSH], (world[CLIENT],))
+    _set_push(calls[_SET_PUSH], (command, world[ROBOT], engine.links[segment], force, force + 24, _WORLD_FRAME))
+    _answered(engine, command)
+    return 0
 
 
 @_exact

@@ -145,6 +145,15 @@ class PythonMotion:
                 )
             pybullet.stepSimulation(physicsClientId=self.client.number)
 
+    def push(self, segment: int, acting: Floats) -> None:
+        """Let a force act on a segment during the next step."""
+        link = self.world.links[segment]
+        force, point = acting[:3].tolist(), acting[3:6].tolist()
+        with _translated():
+            pybullet.applyExternalForce(
+                self.world.robot, link, force, point, pybullet.WORLD_FRAME, physicsClientId=self.client.number
+            )
+
     def check(self) -> None:
         """Do nothing: the methods raise their own errors."""
 

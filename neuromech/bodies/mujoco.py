@@ -10,7 +10,7 @@ from typing import Any, ClassVar, Literal
 import numpy as np
 
 from neuromech.bodies.base import Body, Engine, Floats, initial_motion, root_quaternion
-from neuromech.bodies.mujoco_native import read
+from neuromech.bodies.mujoco_native import push, read
 from neuromech.bodies.mujoco_world import build_model, load_mujoco, step_address
 from neuromech.compiler.body_state import BodyState
 from neuromech.compiler.numerics import Integers
@@ -61,15 +61,20 @@ class MujocoBody(Body):
 
     def step(self, torque: Floats) -> None:
         """Apply joint torques and advance by one step."""
-        _, _, places, _, _, applied, _, warnings = self._opened()
+        _, _, places, _, _, applied, _, warnings, pushed, _ = self._opened()
         applied[places[1]] = torque
         self._mujoco.mj_step(self._model, self._data)
+        pushed[:] = 0.0
         if warnings.any():
             self.check()
 
+    def push(self, segment: int, acting: Floats) -> None:
+        """Let a force act on a segment during the next step."""
+        push(self._opened(), segment, acting)
+
     def check(self) -> None:
         """Raise the first kind of warning of MuJoCo."""
-        *_, warnings = self._opened()
+        warnings = self._opened()[7]
         for kind in np.flatnonzero(warnings):
             info = int(self._data.warning.lastinfo[kind])
             raise RunError(f"MuJoCo failed: {self._mujoco.mju_warningText(int(kind), info)}")
@@ -112,6 +117,8 @@ class MujocoBody(Body):
             data.qfrc_applied,
             data.sensordata if body.world.ground is not None else np.zeros(3 * len(body.contacts)),
             data.warning.number,
+            data.xfrc_applied,
+            np.array([self._model.body(name).id for name in body.segments], dtype=np.int64),
         )
 
 

@@ -8,6 +8,8 @@
     positions, velocities, applied: MuJoCo's qpos, qvel and qfrc_applied.
     forces: (3 contacts,) forces of the ground.
     warnings: how often MuJoCo warned, by kind.
+    pushed: (bodies, 6) MuJoCo's xfrc_applied, force and torque about the centre of mass.
+    rows: (segments,) row of each segment in `pushed`.
 """
 
 from math import cos, sin
@@ -27,7 +29,7 @@ _exactly = numba.njit(cache=True, nogil=True, error_model="numpy")
 @_exactly
 def read(engine: tuple[Any, ...], state: Floats) -> int:
     """Fill the state array; (2 n + 13 + 3 m,), see `BodyState`. Returns 0."""
-    _, root, places, positions, velocities, _, forces, _ = engine
+    _, root, places, positions, velocities, _, forces, _, _, _ = engine
     n = places.shape[1]
     for joint in range(n):
         state[joint] = positions[places[0, joint]]
@@ -47,14 +49,29 @@ def read(engine: tuple[Any, ...], state: Floats) -> int:
 @_exactly
 def step(engine: tuple[Any, ...], torque: Floats) -> int:
     """Apply joint torques (joints,) and advance by one step. Returns the number of warnings, 0 where all is well."""
-    addresses, _, places, _, _, applied, _, warnings = engine
+    addresses, _, places, _, _, applied, _, warnings, pushed, _ = engine
     for joint in range(places.shape[1]):
         applied[places[1, joint]] = torque[joint]
     _call(addresses[0], (addresses[1], addresses[2]))
+    pushed[:] = 0.0
     total = 0
     for kind in range(warnings.shape[0]):
         total += warnings[kind]
     return total
+
+
+@_exactly
+def push(engine: tuple[Any, ...], segment: int, acting: Floats) -> int:
+    """Let a force act on a segment during the next step; `acting` (9,) as in `Body.push`. Returns 0."""
+    row = engine[8][engine[9][segment]]
+    x, y, z = acting[3] - acting[6], acting[4] - acting[7], acting[5] - acting[8]
+    row[0] += acting[0]
+    row[1] += acting[1]
+    row[2] += acting[2]
+    row[3] += y * acting[2] - z * acting[1]
+    row[4] += z * acting[0] - x * acting[2]
+    row[5] += x * acting[1] - y * acting[0]
+    return 0
 
 
 @_exactly

@@ -29,6 +29,8 @@ class _Motion(Protocol):
 
     def step(self, torque: Floats) -> None: ...
 
+    def push(self, segment: int, acting: Floats) -> None: ...
+
     def check(self) -> None: ...
 
     def native(self) -> BulletEngine | None: ...
@@ -74,6 +76,10 @@ class PyBulletBody(Body):
     def step(self, torque: Floats) -> None:
         """Apply joint torques and advance by one step."""
         self._opened().step(torque)
+
+    def push(self, segment: int, acting: Floats) -> None:
+        """Let a force act on a segment during the next step."""
+        self._opened().push(segment, acting)
 
     def reset(self, angles: Sequence[float] | Floats, velocities: Sequence[float] | Floats | None = None) -> None:
         """Build the world anew and put the joints as told."""

@@ -52,6 +52,7 @@ class BulletWorld:
         free: whether the root moves freely.
         root_pose: first position in m and orientation x, y, z, w of the root frame.
         center: centre of mass of the root segment in its frame, in m.
+        links: Bullet's link number of each segment, −1 of the root link.
         contact_row: Bullet's link number of a contact -> its row among the body's contacts.
         clear_heights: for each contact, in m, how high its centre must be for Bullet to see nothing of the ground.
     """
@@ -63,6 +64,7 @@ class BulletWorld:
     free: bool
     root_pose: tuple[float, ...]
     center: Vector
+    links: list[int]
     contact_row: dict[int, int]
     clear_heights: list[float]
 
@@ -101,6 +103,7 @@ def build_world(client: BulletClient, body: BodyModel, step: float) -> BulletWor
         free=body.root.kind == "free",
         root_pose=(*map(float, body.root.position), *root_quaternion(body.root)),
         center=(float(x), float(y), float(z)),
+        links=[links[name] for name in body.segments],
         contact_row={links[CONTACT + name]: row for row, name in enumerate(body.contacts)},
         clear_heights=_clear_heights(body, ground),
     )

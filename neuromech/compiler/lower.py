@@ -15,6 +15,7 @@ from neuromech.compiler.lower_body import (
     joint_parameters,
     muscle_signals,
     muscles,
+    push_signals,
     structure,
 )
 from neuromech.compiler.lower_components import Block, blocks, parameters, place
@@ -51,6 +52,7 @@ def lower(graph: ModelGraph) -> Program:
     elements = muscles(graph)
     if tree is not None:
         body_signals(tree, layout, integers, _tracked(graph))
+        push_signals(graph, layout)
         muscle_signals(elements, layout, header)
         force_slots(elements, layout, integers)
     parameters(parts, floats, layout)

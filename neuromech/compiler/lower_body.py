@@ -45,6 +45,14 @@ def body_signals(tree: Tree, layout: Layout, integers: Buffer, tracked: Iterable
     layout.signal_count = first + len(SEGMENT_SIGNALS) * len(names)
 
 
+def push_signals(graph: ModelGraph, layout: Layout) -> None:
+    """Place the forces of all pushes."""
+    for element in graph.elements("push"):
+        for axis in "xyz":
+            layout.signals[f"{element.name}.force_{axis}"] = layout.signal_count
+            layout.signal_count += 1
+
+
 def muscles(graph: ModelGraph) -> list[Element]:
     """Return the muscles in the order that all muscle arrays have: by name."""
     return sorted(graph.elements("muscle"), key=lambda element: element.name)

@@ -29,6 +29,12 @@ from neuromech.graph.checks.populations import (
     varied_parameter,
 )
 from neuromech.graph.checks.ports import port_missing, unit_clash
+from neuromech.graph.checks.pushes import (
+    hinge_engine_knows_no_push,
+    one_distribution,
+    push_after_the_end,
+    series_that_never_advances,
+)
 from neuromech.graph.checks.signals import (
     initial_matches_nothing,
     initial_of_wrong_unit,
@@ -51,6 +57,9 @@ VALUE_RULES: tuple[Rule, ...] = (
     ends_upside_down,
     slope_misplaced,
     step_misplaced,
+    one_distribution,
+    push_after_the_end,
+    series_that_never_advances,
     delay_below_step,
     varied_parameter,
     two_ways_of_wiring,
@@ -64,6 +73,7 @@ RULES: tuple[Rule, ...] = (
     hinge_engine,
     hinge_engine_knows_no_contact,
     hinge_engine_knows_no_ground,
+    hinge_engine_knows_no_push,
     engine_refusal,
     synapse_defined_twice,
     port_missing,

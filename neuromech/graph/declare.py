@@ -4,12 +4,11 @@ from collections.abc import Iterator, Mapping
 from importlib import import_module
 from pathlib import Path
 
-from neuromech.components.base import Component
 from neuromech.errors import Problem
-from neuromech.graph.model import Element, NodeFamily
+from neuromech.graph.model import Element, NodeFamily, Spec
 from neuromech.graph.names import qualified
 from neuromech.spec.document import Document
-from neuromech.spec.model import BodyParts, Contact, Experiment, Instance, Joint, Scope, Segment
+from neuromech.spec.model import BodyParts, Experiment, Instance, Scope
 
 
 def scopes(experiment: Experiment) -> Iterator[tuple[str, str, Scope]]:
@@ -35,6 +34,9 @@ def declared(document: Document) -> tuple[list[Element], list[Problem]]:
         body = content.body if isinstance(content, Experiment | Instance) else None
         if body is not None:
             elements += _of_body(scope, qualified(path, "body"), body)
+    protocol = document.experiment.protocol
+    elements += _of_map("", "protocol.pushes", "push", protocol.pushes)
+    elements += _of_map("", "protocol.push_series", "push", protocol.push_series)
     try:
         elements += _of_body_file(document)
     except ValueError as error:
@@ -60,7 +62,10 @@ def _of_body(scope: str, path: str, body: BodyParts) -> Iterator[Element]:
 
 
 def _of_map(
-    scope: str, path: str, family: NodeFamily, specs: Mapping[str, Component | Segment | Joint | Contact]
+    scope: str,
+    path: str,
+    family: NodeFamily,
+    specs: Mapping[str, Spec],
 ) -> Iterator[Element]:
     for name, spec in specs.items():
         yield Element(qualified(scope, name), family, spec, f"{path}.{name}", scope)

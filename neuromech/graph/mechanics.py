@@ -25,6 +25,7 @@ CONTACT_OUTPUTS = (
     Port("y", "m"),
     Port("z", "m"),
 )
+PUSH_OUTPUTS = (Port("force_x", "N"), Port("force_y", "N"), Port("force_z", "N"))
 PATH_OUTPUTS = (Port("length", "mm"), Port("velocity", "mm/s"))
 
 
@@ -39,9 +40,9 @@ def outputs(element: Element) -> tuple[Port, ...]:
         return spec.outputs + (PATH_OUTPUTS if element.family == "muscle" else ())
     if isinstance(spec, Joint):
         return HINGE_OUTPUTS if spec.kind == "hinge" else SLIDE_OUTPUTS
-    return SEGMENT_OUTPUTS if element.family == "segment" else CONTACT_OUTPUTS
+    return {"segment": SEGMENT_OUTPUTS, "contact": CONTACT_OUTPUTS, "push": PUSH_OUTPUTS}[element.family]
 
 
 def inputs(element: Element) -> tuple[Port, ...]:
-    """Return the input ports of an element; segments, joints and contacts have none."""
+    """Return the input ports of an element; segments, joints, contacts and pushes have none."""
     return element.spec.inputs if isinstance(element.spec, Component) else ()

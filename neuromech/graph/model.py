@@ -9,9 +9,11 @@ import networkx as nx
 from neuromech.components.base import Component
 from neuromech.spec.document import Document
 from neuromech.spec.model import Contact, Joint, Population, Projection, Root, Segment
+from neuromech.spec.pushes import Push, PushSeries
 from neuromech.spec.world import World
 
-NodeFamily = Literal["neuron", "population", "drive", "muscle", "sensor", "joint", "segment", "contact"]
+NodeFamily = Literal["neuron", "population", "drive", "muscle", "sensor", "joint", "segment", "contact", "push"]
+Spec = Component | Segment | Joint | Contact | Push | PushSeries
 EdgeKind = Literal["synapse", "projection", "wire", "crossing", "structure"]
 
 
@@ -22,7 +24,7 @@ class Element:
     Args:
         name: qualified name, which is the node itself.
         family: what kind of thing it is.
-        spec: the component, or the segment, joint or contact as written; of a population, its neuron.
+        spec: the component, or the segment, joint, contact or push as written; of a population, its neuron.
         path: dotted path in the document.
         scope: qualified name of the instance that holds it, empty for the document.
         population: size and variation of a population, None for anything else.
@@ -30,7 +32,7 @@ class Element:
 
     name: str
     family: NodeFamily
-    spec: Component | Segment | Joint | Contact
+    spec: Spec
     path: str
     scope: str
     population: Population | None = None

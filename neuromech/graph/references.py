@@ -6,9 +6,10 @@ from typing import TypeVar
 
 from neuromech.components.base import Component
 from neuromech.components.paths import ConstantMomentArms, LeverArms, PathPoint, StraightLines
-from neuromech.graph.model import Element
+from neuromech.graph.model import Element, Spec
 from neuromech.graph.names import Resolver, wanted
-from neuromech.spec.model import Contact, Joint, Segment
+from neuromech.spec.model import Contact, Joint
+from neuromech.spec.pushes import Push, PushSeries
 
 _JOINT = wanted("joint")
 _SEGMENT = wanted("segment")
@@ -20,12 +21,12 @@ def resolved(elements: Iterable[Element], resolver: Resolver) -> list[Element]:
     return [replace(element, spec=_resolved_spec(element, resolver)) for element in elements]
 
 
-def _resolved_spec(element: Element, resolver: Resolver) -> Component | Segment | Joint | Contact:
+def _resolved_spec(element: Element, resolver: Resolver) -> Spec:
     spec = element.spec
     if isinstance(spec, Joint):
         names = {field: _segment(getattr(spec, field), field, element, resolver) for field in ("parent", "child")}
         return spec.model_copy(update=names)
-    if isinstance(spec, Contact):
+    if isinstance(spec, Contact | Push | PushSeries):
         return spec.model_copy(update={"segment": _segment(spec.segment, "segment", element, resolver)})
     if isinstance(spec, Component):
         return spec.model_copy(update=_component_fields(spec, element, resolver))

@@ -11,15 +11,16 @@ FINISHED, BAD_TORQUE, FELL, BAD_STATE, ENGINE_FAILED = range(5)
 
 _SOURCE = '''"""Generated loop for {native} around {step}."""
 
-from {native} import read, step
+from {native} import push, read, step
 from {step} import BODY, CONTACTS, JOINTS, TORQUE, advance, tick
 
 from neuromech.compiler.ground import height_below
 from neuromech.compiler.numerics import compiled
+from neuromech.compiler.pushes import acting, share_of_step, show_pushes
 
 
 @compiled
-def run(first, last, dt, x, s, u, p, F, I, R, T, D, engine, lowest, least_cosine, corners, steps):
+def run(first, last, dt, x, s, u, p, F, I, R, T, D, engine, lowest, least_cosine, corners, steps, pushes, places, room):
     """Advance from body step `first` to `last`; return the step reached, why it ended, and which number is bad."""
     n, body = I[JOINTS], I[BODY]
     state = s[body : body + 2 * n + 13 + 3 * I[CONTACTS]]
@@ -27,6 +28,7 @@ def run(first, last, dt, x, s, u, p, F, I, R, T, D, engine, lowest, least_cosine
     for number in range(first, last):
         if read(engine, state) != 0:
             return number, {failed}, 0
+        show_pushes(number, dt, pushes, places, s)
         bad = tick(number, dt, x, s, u, p, F, I, R, T, D)
         if bad >= 0:
             return number, {torque}, bad
@@ -37,6 +39,11 @@ def run(first, last, dt, x, s, u, p, F, I, R, T, D, engine, lowest, least_cosine
         bad = advance(number, dt, x, s, u, p, F, I)
         if bad >= 0:
             return number, {state}, bad
+        for k in range(places.shape[0]):
+            share = share_of_step(number, dt, pushes[k])
+            if share > 0.0:
+                acting(share, pushes[k], places[k, 0], D[0], D[1], room)
+                push(engine, places[k, 0], room)
         if step(engine, torque) != 0:
             return number, {failed}, 0
     return last, {finished}, 0

@@ -13,6 +13,7 @@ from neuromech.bodies.factory import open_body
 from neuromech.compiler.ground import Surface
 from neuromech.compiler.numerics import Floats
 from neuromech.compiler.program import Memory, Program
+from neuromech.compiler.pushes import ACTING, NO_PUSHES, Pushes, acting, share_of_step, show_pushes
 from neuromech.errors import RunError
 from neuromech.graph.model import BodyModel
 from neuromech.simulate.adaptive import breakpoints, integrate, is_adaptive, ticks_from
@@ -20,6 +21,7 @@ from neuromech.simulate.compiled_loop import BAD_STATE, BAD_TORQUE, FELL, compil
 from neuromech.simulate.fall import FallRule
 from neuromech.simulate.helpers import helpers
 from neuromech.simulate.initial import initial_states, rest_muscles
+from neuromech.simulate.pushes import drawn_pushes
 from neuromech.simulate.recorder import Recorder
 from neuromech.simulate.recording import Outcome, Recording
 from neuromech.simulate.start import drawn_body
@@ -54,6 +56,7 @@ class _Run:
     seed: int
     progress: Progress | None
     checkpoint: Checkpoint | None
+    pushes: Pushes
     engine: str = "none"
     done: int = 0
     started: float = field(default_factory=time.perf_counter)
@@ -119,7 +122,8 @@ def simulate(
     body = drawn_body(program.graph, used_seed)
     memory = program.memory()
     memory.x[:] = initial_states(program, used_seed)
-    run = _Run(program, memory, Recorder(program, memory.I, ticks), ticks, used_seed, progress, checkpoint)
+    pushes = NO_PUSHES if body is None else drawn_pushes(program, body, used_seed, ticks * program.tick)
+    run = _Run(program, memory, Recorder(program, memory.I, ticks), ticks, used_seed, progress, checkpoint, pushes)
     return run.recording(_with_body(run, body) if body is not None else _ended(run, _network))
 
 
@@ -216,7 +220,8 @@ def _native_loop(run: _Run, body: Body, native_module: str, native: tuple[Any, .
     fall = _fall_rule(run, body)
     advance = compiled_loop(run.program, native_module).run
     limits = (fall.height, fall.least_cosine, fall.surface.corners, fall.surface.steps)
-    rest = (*memory.buffers, run.recorder.samples, memory.T, memory.D, native, *limits)
+    pushes = (run.pushes.numbers, run.pushes.places, np.zeros(ACTING))
+    rest = (*memory.buffers, run.recorder.samples, memory.T, memory.D, native, *limits, *pushes)
 
     def chunk(last: int) -> Outcome | None:
         run.done, why, position = advance(run.done, last, dt, *rest)
@@ -243,6 +248,7 @@ def _method_loop(run: _Run, body: Body) -> Outcome | None:
     def chunk(last: int) -> Outcome | None:
         for number in range(run.done, last):
             body.read(state)
+            show_pushes(number, program.tick, run.pushes.numbers, run.pushes.places, memory.s)
             bad = program.module.tick(number, program.tick, *rest)
             if bad >= 0:
                 return run.bad_torque(body.joints[bad])
@@ -252,11 +258,22 @@ def _method_loop(run: _Run, body: Body) -> Outcome | None:
             bad = advance(number, program.tick, *memory.buffers)
             if bad >= 0:
                 return run.bad_state(bad)
+            _push(run, body, number)
             body.step(torque)
             run.done = number + 1
         return None
 
     return _in_chunks(run, chunk)
+
+
+def _push(run: _Run, body: Body, number: int) -> None:
+    rotation, position, *_ = run.memory.D
+    room = np.zeros(ACTING)
+    for push, (segment, _) in zip(run.pushes.numbers, run.pushes.places, strict=True):
+        share = share_of_step(number, run.program.tick, push)
+        if share > 0.0:
+            acting(share, push, segment, rotation, position, room)
+            body.push(segment, room)
 
 
 def _adaptive_advance(program: Program, memory: Memory) -> Callable[..., int]:

@@ -12,6 +12,7 @@ from pydantic import Field, field_validator
 from neuromech.components.base import Drive, Muscle, Neuron, Sensor, SpecModel, Synapse
 from neuromech.spec.fields import KindFromKey, OfCatalogue
 from neuromech.spec.measure import Expected, Measure
+from neuromech.spec.pushes import Push, PushSeries
 from neuromech.spec.scalars import Name, PositiveTime, Seed, Vector, Written
 from neuromech.spec.study import Study
 from neuromech.spec.sweep import Sweep
@@ -265,6 +266,8 @@ class Protocol(SpecModel):
     initial: dict[str, Written | Uniform] = {}
     ramps: dict[Name, Ramp] = {}
     events: dict[Name, Event] = {}
+    pushes: dict[Name, Push] = {}
+    push_series: dict[Name, PushSeries] = {}
     fall: Fall | None = None
 
 
