@@ -114,7 +114,8 @@ def test_the_force_is_recorded_as_its_mean_over_each_step(document, engine):
 
 
 def test_engines_agree_on_pushes(document):
-    one, other = (run(document(free(engine, SERIES, "planar", "1200 ms", "gusts.*"))) for engine in ("pybullet", "mujoco"))
+    files = [document(free(engine, SERIES, "planar", "1200 ms", "gusts.*")) for engine in ("pybullet", "mujoco")]
+    one, other = map(run, files)
     assert np.ptp(one.signal("hip.angle")[1]) > 0.1
     for name in ("trunk.x", "trunk.z", "trunk.pitch", "hip.angle", "gusts.force_x"):
         assert one.signal(name)[1] == pytest.approx(other.signal(name)[1], abs=1e-3)
