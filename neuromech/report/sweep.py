@@ -185,12 +185,14 @@ class _Painter:
         scale: of numbers.
         hatches: reason → hatch.
         dotted: whether some cells are dotted.
+        has_numbers: whether any cell has a number.
     """
 
     words: Mapping[str, int]
     scale: Normalize
     hatches: Mapping[str, str]
     dotted: bool
+    has_numbers: bool
 
     @property
     def colors(self) -> Any:
@@ -217,7 +219,7 @@ class _Painter:
         if self.dotted:
             options: dict[str, Any] = {"linestyle": "none", "color": "white", "markeredgecolor": "black"}
             handles.append(Line2D([], [], marker="o", markersize=3, label="no value for some seeds", **options))
-        if not self.words and np.isfinite(self.scale.vmin or np.nan):
+        if self.has_numbers:
             figure.colorbar(ScalarMappable(self.scale, colors), ax=list(axes), label=label, shrink=0.9)
         if handles:
             columns = max(1, int(figure.get_figwidth() // LEGEND_WIDTH))
@@ -233,8 +235,8 @@ def _painter(data: xr.Dataset, name: str, found: Sequence[Cell]) -> _Painter:
     if words:
         scale = Normalize(-0.5, len(words) - 0.5)
     else:
-        scale = Normalize(min(numbers), max(numbers)) if numbers else Normalize(np.nan, np.nan)
-    return _Painter({word: index for index, word in enumerate(words)}, scale, hatches, dotted)
+        scale = Normalize(min(numbers, default=0.0), max(numbers, default=1.0))
+    return _Painter({word: index for index, word in enumerate(words)}, scale, hatches, dotted, bool(numbers))
 
 
 def _draw_map(axes: Axes, rows: Sequence[Sequence[Cell]], painter: _Painter) -> None:

@@ -1,10 +1,12 @@
 """How often each search algorithm solves sphere, Rosenbrock and Rastrigin in ten dimensions, beside a library's own.
 
 A search is solved where its best value reaches the target within the evaluations. The optimum lies off the middle of
-the box, where no algorithm begins. All see the score 1 / (1 + f), which roulette needs to be positive.
+the box, where no algorithm begins. Ours see the score 1 / (1 + f), which roulette needs to be positive. Words on the
+command line choose the algorithms whose names they are part of.
 """
 
 import random
+import sys
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass
@@ -21,7 +23,6 @@ from neuromech.study.algorithms.catalogue import AlgorithmCatalogue
 from neuromech.study.score import Score
 
 DIMENSION = 10
-EVALUATIONS = 60_000
 SEEDS = range(20)
 
 
@@ -60,8 +61,9 @@ class Solved(Exception):  # noqa: N818 (it ends a search, it is no error)
 class Counted:
     """A problem that counts evaluations, remembers the best, and ends a search that has reached the target."""
 
-    def __init__(self, problem: Problem) -> None:
+    def __init__(self, problem: Problem, most: int) -> None:
         self.problem = problem
+        self.most = most
         self.count = 0
         self.best = np.inf
 
@@ -83,7 +85,7 @@ def ours(**written: object) -> Solver:
 
     def solve(counted: Counted, seed: int) -> None:
         search = catalogue.create(settings, DIMENSION, seed)
-        while counted.count < EVALUATIONS:
+        while counted.count < counted.most:
             search.tell([Score(0, 1.0 / (1.0 + float(value))) for value in counted(search.ask())])
 
     return solve
@@ -111,7 +113,7 @@ def deap_ga(counted: Counted, seed: int) -> None:
         return first
 
     population = rated([creator.Individual(random.random() for _ in range(DIMENSION)) for _ in range(300)])
-    while counted.count < EVALUATIONS:
+    while counted.count < counted.most:
         elites = [creator.Individual(elite) for elite in tools.selBest(population, 2)]
         parents = tools.selRoulette(population, 2 * 298)
         population = rated([*elites, *map(child, parents[::2], parents[1::2])])
@@ -137,8 +139,8 @@ def pymoo_pso(acceleration: float) -> Solver:
             adaptive=False,
             pertube_best=False,
         )
-        swarm.setup(Box(counted), seed=seed, termination=("n_gen", EVALUATIONS))
-        while counted.count < EVALUATIONS:
+        swarm.setup(Box(counted), seed=seed, termination=("n_gen", counted.most))
+        while counted.count < counted.most:
             swarm.next()
 
     return solve
@@ -151,7 +153,7 @@ def library_cma_es(restarts: bool) -> Solver:
         bounds = np.tile([0.0, 1.0], (DIMENSION, 1))
         stream = np.random.default_rng(seed)
         optimizer = cmaes.CMA(np.full(DIMENSION, 0.5), 0.3, bounds, seed=seed)
-        while counted.count < EVALUATIONS:
+        while counted.count < counted.most:
             points = np.array([optimizer.ask() for _ in range(optimizer.population_size)])
             optimizer.tell(list(zip(points, counted(points), strict=True)))
             if restarts and optimizer.should_stop():
@@ -162,20 +164,30 @@ def library_cma_es(restarts: bool) -> Solver:
     return solve
 
 
-PAIRS: dict[str, tuple[Solver, str, Solver]] = {
-    "`real_coded_ga`": (ours(kind="real_coded_ga", spread=1.0), "DEAP's operators", deap_ga),
-    "`pso`": (ours(kind="pso"), "pymoo", pymoo_pso(2.05)),
-    "`pso`, `constricts: all`": (ours(kind="pso", constricts="all"), "pymoo", pymoo_pso(0.729 * 2.05)),
-    "`cma_es`": (ours(kind="cma_es"), "cmaes", library_cma_es(False)),
-    "`cma_es`, `restarts: ipop`": (ours(kind="cma_es", restarts="ipop"), "cmaes", library_cma_es(True)),
+@dataclass(frozen=True)
+class Pair:
+    """One of our algorithms and a library's, with the evaluations that each may take."""
+
+    most: int
+    ours: Solver
+    peer_name: str
+    peer: Solver
+
+
+PAIRS = {
+    "`real_coded_ga`": Pair(60_000, ours(kind="real_coded_ga", spread=1.0), "DEAP", deap_ga),
+    "`pso`": Pair(60_000, ours(kind="pso"), "pymoo", pymoo_pso(2.05)),
+    "`pso`, `constricts: all`": Pair(60_000, ours(kind="pso", constricts="all"), "pymoo", pymoo_pso(0.729 * 2.05)),
+    "`cma_es`": Pair(10_000, ours(kind="cma_es"), "cmaes", library_cma_es(False)),
+    "`cma_es`, `restarts: ipop`": Pair(60_000, ours(kind="cma_es", restarts="ipop"), "cmaes", library_cma_es(True)),
 }
 
 
-def runs(solver: Solver, problem: Problem, seeds: range = SEEDS) -> list[Counted]:
+def runs(solver: Solver, problem: Problem, most: int, seeds: range = SEEDS) -> list[Counted]:
     """Return what became of a search from each seed."""
     found = []
     for seed in seeds:
-        counted = Counted(problem)
+        counted = Counted(problem, most)
         with suppress(Solved):
             solver(counted, seed)
         found.append(counted)
@@ -194,15 +206,17 @@ def cell(searches: list[Counted]) -> str:
     return f"{len(counts)}/{len(searches)} ({took}; {median(search.best for search in searches):.2g})"
 
 
-def main() -> None:
+def main(words: list[str]) -> None:
     """Print a Markdown table."""
     print(f"| algorithm | | {' | '.join(f'{one.name} ≤ {one.target:g}' for one in PROBLEMS)} |")  # noqa: T201
     print("|---|---|" + "---|" * len(PROBLEMS))  # noqa: T201
-    for name, (mine, peer_name, peer) in PAIRS.items():
-        for label, solver in (("neuromech", mine), (peer_name, peer)):
-            cells = " | ".join(cell(runs(solver, problem)) for problem in PROBLEMS)
-            print(f"| {name} | {label} | {cells} |", flush=True)  # noqa: T201
+    for name, pair in PAIRS.items():
+        if words and not any(word in name for word in words):
+            continue
+        for label, solver in (("neuromech", pair.ours), (pair.peer_name, pair.peer)):
+            cells = " | ".join(cell(runs(solver, problem, pair.most)) for problem in PROBLEMS)
+            print(f"| {name}, {pair.most} | {label} | {cells} |", flush=True)  # noqa: T201
 
 
 if __name__ == "__main__":
-    main()
+    main(sys.argv[1:])
