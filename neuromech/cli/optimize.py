@@ -12,6 +12,7 @@ from neuromech.cli.scores import score_text
 from neuromech.cli.search_progress import search_progress
 from neuromech.cli.terminal import ENDED_EARLY, FINISHED, note, of_extra
 from neuromech.errors import DocumentError, Problem, StudyError
+from neuromech.pipeline import load_document
 from neuromech.report.convergence import convergence_figure
 from neuromech.report.layout import save, style
 from neuromech.study.database import Database
@@ -96,25 +97,20 @@ def _check(request: Request) -> None:
 
 
 def _open(request: Request) -> _Opened:
-    evaluator = _evaluator(request, request.seed)
-    name = request.name or evaluator.document.experiment.name
+    written = load_document(request.spec)
+    name = request.name or written.experiment.name
     database = Database(request.storage or _own_file(name))
-    if not request.resume or name not in database.names():
-        plan = Plan.of(evaluator.document)
+    stored = database.open(name) if request.resume and name in database.names() else None
+    seed = request.seed if stored is None or request.seed is not None else stored.header.seed
+    changes = {"study.seed": seed, "study.evaluations": request.evaluations}
+    evaluator = Evaluator(request.spec, [f"{path}={value}" for path, value in changes.items() if value is not None])
+    plan = Plan.of(evaluator.document, written)
+    if stored is None:
         stored = database.create(name, plan.header)
         note(f"study '{name}' begins in {database.shown}")
-        return _Opened(name, plan, stored, evaluator)
-    stored = database.open(name)
-    if request.seed is None:
-        evaluator = _evaluator(request, stored.header.seed)
-    plan = Plan.of(evaluator.document)
-    _compare(name, stored, plan)
+    else:
+        _compare(name, stored, plan)
     return _Opened(name, plan, stored, evaluator)
-
-
-def _evaluator(request: Request, seed: int | None) -> Evaluator:
-    changes = {"study.seed": seed, "study.evaluations": request.evaluations}
-    return Evaluator(request.spec, [f"{path}={value}" for path, value in changes.items() if value is not None])
 
 
 def _own_file(name: str) -> str:

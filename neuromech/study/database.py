@@ -1,10 +1,11 @@
 """The studies in one database: a SQLite file, or a PostgreSQL server."""
 
 import sqlite3
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 from optuna.exceptions import DuplicatedStudyError
@@ -21,6 +22,16 @@ from neuromech.study.storage import StoredStudy, reason, working
 HEADER = "neuromech"
 CONNECTION_SECONDS = 10
 LOCK_SECONDS = 60
+
+_DRIVERS: Mapping[str, str] = MappingProxyType(
+    {
+        "sqlite": "sqlite",
+        "postgres": "postgresql+psycopg",
+        "postgresql": "postgresql+psycopg",
+        "postgresql+psycopg": "postgresql+psycopg",
+    }
+)
+_PLACES = "Hint: give a file, or postgresql://USER@HOST/DATABASE"
 
 
 class Database:
@@ -60,20 +71,19 @@ class Database:
             return [study.study_name for study in studies if HEADER in study.user_attrs]
 
     def create(self, name: str, header: Header) -> StoredStudy:
-        """Begin a study.
+        """Begin a study; one of the same name that has no evaluation yet is begun anew.
 
         Raises:
-            StudyError: there is one of that name, or the database fails.
+            StudyError: there is one of that name with evaluations, or the database fails.
         """
-        if name in self.names():
-            hint = "--resume continues it; another --name or --storage begins a new one"
-            raise StudyError(f"{self.shown} holds a study '{name}' already. Hint: {hint}")
         with working(self.shown):
             try:
                 number = self._storage.create_new_study([StudyDirection.MAXIMIZE], name)
             except DuplicatedStudyError:
-                # Begun by a process that was killed before it could say what study this is.
                 number = self._storage.get_study_id_from_name(name)
+            if self._storage.get_n_trials(number):
+                hint = "--resume continues it; another --name or --storage begins a new one"
+                raise StudyError(f"{self.shown} holds a study '{name}' already. Hint: {hint}")
             self._storage.set_study_user_attr(number, HEADER, header.to_dict())
             return StoredStudy(self._storage, self.shown, number, header)
 
@@ -107,9 +117,11 @@ def _url(place: str) -> URL:
         return URL.create("sqlite", database=place)
     try:
         url = make_url(place)
-    except ArgumentError as error:
-        raise StudyError(f"'{place}' is no database URL. Hint: postgresql://USER@HOST/DATABASE, or a file") from error
-    return url.set(drivername="postgresql+psycopg") if url.drivername in ("postgres", "postgresql") else url
+    except (ArgumentError, ValueError) as error:
+        raise StudyError(f"'{place}' is no database URL. {_PLACES}") from error
+    if url.drivername not in _DRIVERS:
+        raise StudyError(f"'{url.drivername}' is no database that studies are stored in. {_PLACES}")
+    return url.set(drivername=_DRIVERS[url.drivername])
 
 
 def _file(path: str) -> sqlite3.Connection:
@@ -128,9 +140,10 @@ def _connecting(shown: str) -> Iterator[None]:
     try:
         yield
     except ImportError as error:
-        raise MissingExtraError("the driver of this database", "postgresql") from error
-    except SQLAlchemyError as error:
-        hint = "start the server, or leave out '--storage' to use a file"
+        raise MissingExtraError("psycopg", "postgresql") from error
+    except (SQLAlchemyError, sqlite3.Error) as error:
+        server = "start the server, or leave out '--storage' to use a file"
+        hint = server if "://" in shown else "give another file"
         raise StudyError(f"no database can be used at {shown}: {reason(error)}. Hint: {hint}") from error
     except RuntimeError as error:
         raise StudyError(f"{shown} was made by another version of Optuna: {error}") from error

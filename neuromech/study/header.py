@@ -10,7 +10,7 @@ from neuromech.errors import DocumentError
 from neuromech.graph.declare import body_file
 from neuromech.graph.diff import ABSENT, Change
 from neuromech.spec.document import Document
-from neuromech.spec.node import ScalarNode
+from neuromech.spec.node import MapNode, Node, ScalarNode
 from neuromech.spec.positions import Positions
 from neuromech.spec.reader import parse
 from neuromech.study.space import Space
@@ -27,9 +27,9 @@ class Header:
     Args:
         document: name of the document.
         file: the file that the study was begun with.
-        specification: the resolved document as YAML.
+        specification: the resolved document as YAML, as written.
         body: SHA-256 of the file that the body comes from, None without one.
-        seed: of the study.
+        seed: of the study, which may be another than the document's.
         units: tuned parameter -> the unit that its values are written in.
         stages: names of the stages of the objective, none where it is a plain sum.
         versions: package -> version that the study was begun with.
@@ -45,8 +45,12 @@ class Header:
     versions: Mapping[str, str]
 
     @classmethod
-    def of(cls, document: Document) -> Self:
+    def of(cls, document: Document, seed: int) -> Self:
         """Return the header of the study of a document.
+
+        Args:
+            document: as written.
+            seed: of the study.
 
         Raises:
             OSError: the file of the body cannot be read.
@@ -60,7 +64,7 @@ class Header:
             file=str(document.file),
             specification=document.text,
             body=body_digest(document),
-            seed=study.seed,
+            seed=seed,
             units={dimension.name: dimension.unit for dimension in Space.of(document).dimensions},
             stages=tuple(study.objective.stages),
             versions={package: version(package) for package in PACKAGES},
@@ -81,6 +85,8 @@ class Header:
         Names, descriptions, references, claims, sweeps and the number of evaluations are free to change.
         """
         found = changes_of(self.specification, now.specification, _is_free)
+        if self.seed != now.seed:
+            found.append(Change("--seed", str(self.seed), str(now.seed)))
         if self.body != now.body:
             found.append(Change("content of body.file", str(self.body)[:12], str(now.body)[:12]))
         return found
@@ -92,10 +98,12 @@ class Header:
 
 
 def changes_of(old: str, new: str, is_free: Callable[[str], bool]) -> list[Change]:
-    """Return in which single values two resolved documents differ, by path, but for those that are free to."""
+    """Return in which values two resolved documents differ, by path, and in which order; but for those free to."""
     before, now = _values(old, is_free), _values(new, is_free)
     paths = sorted({**before, **now})
-    changes = (Change(path, before.get(path, ABSENT), now.get(path, ABSENT)) for path in paths)
+    changes = [Change(path, before.get(path, ABSENT), now.get(path, ABSENT)) for path in paths]
+    if before.keys() == now.keys():
+        changes += [Change("order", one, other) for one, other in zip(before, now, strict=True) if one != other][:1]
     return [change for change in changes if change.old != change.new]
 
 
@@ -116,12 +124,22 @@ def is_free_parameter_text(path: str) -> bool:
 
 
 def _values(specification: str, is_free: Callable[[str], bool]) -> dict[str, str]:
-    """Return path -> text of every single value of a resolved document that is not free."""
+    """Return path -> text of every single value, and of everything empty, that is not free."""
     try:
         nodes = Positions.of(parse(specification.encode(), "stored document")).nodes
     except DocumentError as error:
         raise ValueError(f"a resolved document cannot be read: {error}") from error
-    return {path: node.text for path, node in nodes.items() if isinstance(node, ScalarNode) and not is_free(path)}
+    texts = {path: _text(node) for path, node in nodes.items() if not is_free(path)}
+    return {path: text for path, text in texts.items() if text is not None}
+
+
+def _text(node: Node) -> str | None:
+    """Return what stands there where nothing stands below it."""
+    if isinstance(node, ScalarNode):
+        return node.text
+    if isinstance(node, MapNode):
+        return None if node.entries else "{}"
+    return None if node.items else "[]"
 
 
 def _is_free(path: str) -> bool:

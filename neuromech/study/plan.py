@@ -35,8 +35,12 @@ class Plan:
     seed: int
 
     @classmethod
-    def of(cls, document: Document) -> Self:
+    def of(cls, document: Document, written: Document | None = None) -> Self:
         """Return the plan of a document.
+
+        Args:
+            document: what is searched.
+            written: the same as its author wrote it, where the command line changed seed or number of evaluations.
 
         Raises:
             DocumentError: the document has no study, or its algorithm is wrong.
@@ -48,7 +52,7 @@ class Plan:
             raise DocumentError([document.problem("no-study", "", "the document has no study", None, hint)])
         return cls(
             document=document,
-            header=Header.of(document),
+            header=Header.of(written or document, study.seed),
             space=Space.of(document),
             scenarios=Scenarios.of(document),
             settings=AlgorithmCatalogue.installed().settings(study.algorithm, mark=document.mark),
