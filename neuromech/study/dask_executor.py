@@ -15,7 +15,7 @@ QUEUE = 2
 """Jobs handed out for each thread of a worker: one runs, the next one is there already."""
 
 
-_client: Callable[[str], Any] = partial(Client, timeout=CONNECTION_SECONDS, set_as_default=False)
+_client: Callable[..., Any] = partial(Client, set_as_default=False)
 
 
 class DaskExecutor(Executor):
@@ -25,18 +25,19 @@ class DaskExecutor(Executor):
     and the files of the document, at the same place.
     """
 
-    def __init__(self, address: str) -> None:
+    def __init__(self, address: str, patience: float = CONNECTION_SECONDS) -> None:
         """Connect.
 
         Args:
             address: of the scheduler, like `tcp://127.0.0.1:8786`.
+            patience: how long it is tried (s).
 
         Raises:
             StudyError: no scheduler answers there.
         """
         self._address = address
         try:
-            self._client = _client(address)
+            self._client = _client(address, timeout=patience)
         except (OSError, ValueError) as error:
             hint = "start one with 'dask scheduler', or leave out '--dask'"
             raise StudyError(f"no Dask scheduler answers at {address}. Hint: {hint}") from error

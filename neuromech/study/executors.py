@@ -72,12 +72,13 @@ class Executor(ABC):
         while running:
             for future in wait(running, return_when=FIRST_COMPLETED).done:
                 one = running.pop(future)
-                lost = self._release(future)
-                if lost and not one.number:
-                    waiting = itertools.chain([(one.job, 1)], waiting)
-                else:
-                    yield _lost(one) if lost else _done(one, future)
-            self._fill(running, waiting, pickled, stop)
+                found = self._found(one, future)
+                if found is None:
+                    waiting = itertools.chain([(one.job, one.number + 1)], waiting)
+                # Before the result is looked at, so that nobody waits meanwhile.
+                self._fill(running, waiting, pickled, stop)
+                if found is not None:
+                    yield found
 
     def _fill(
         self, running: dict[Future[Any], "_Try"], waiting: Iterator[tuple[Any, int]], pickled: bytes, stop: Stop
@@ -87,6 +88,12 @@ class Executor(ABC):
             if job is None:
                 return
             running[self._submit(pickled, job)] = _Try(job, number, time.perf_counter())
+
+    def _found(self, one: "_Try", future: Future[Any]) -> Done[Any, Any] | None:
+        """Return what became of a job, None where it has to be tried again."""
+        if not self._release(future):
+            return _done(one, future)
+        return Done(one.job, None, ENDED_ABRUPTLY, one.seconds) if one.number else None
 
     @abstractmethod
     def _slots(self) -> int:
@@ -141,10 +148,6 @@ class _Try:
     @property
     def seconds(self) -> float:
         return time.perf_counter() - self.started
-
-
-def _lost(one: _Try) -> Done[Any, Any]:
-    return Done(one.job, None, ENDED_ABRUPTLY, one.seconds)
 
 
 def _done(one: _Try, future: Future[Any]) -> Done[Any, Any]:
