@@ -118,16 +118,15 @@ def test_changes_of_the_document_are_swept(here):
     [
         (
             ("sweep", "one.yaml", "levls"),
-            "one.yaml:13:1  sweeps  there is no sweep 'levls'. Hint: did you mean 'levels'?\n",
+            "one.yaml:12:1  sweeps  there is no sweep 'levls'. Hint: did you mean 'levels'?\n",
         ),
         (
             ("sweep", "one.yaml", "--set", "sweeps=null"),
             "the document has no sweep. Hint: write a section 'sweeps', see docs/studies.md\n",
         ),
         (
-            ("sweep", "one.yaml", "levels", "--set", "sweeps.levels.measures.level.signal=cell.actvity"),
-            "sweeps.levels.measures.level.signal  matches no recorded signal (got 'cell.actvity'). "
-            "Hint: did you mean 'cell.activity'?\n",
+            ("sweep", "one.yaml", "levels", "--set", "sweeps.levels.measures.level.signal=cell.rate"),
+            "sweeps.levels.measures.level.signal  matches no recorded signal (got 'cell.rate'). Hint: record it\n",
         ),
         (
             ("sweep", "one.yaml", "levels", "--set", "sweeps.levels.vary.bias.range=[0, 2]"),
