@@ -1,6 +1,7 @@
 """Body and its signals → sections of the buffers, and the tree for the kinematics."""
 
 from collections.abc import Iterable
+from math import inf
 
 import numpy as np
 
@@ -12,7 +13,10 @@ from neuromech.compiler.tree import SLIDE, Tree
 from neuromech.components.base import Muscle
 from neuromech.graph.model import BodyModel, Element, ModelGraph
 
-SEGMENT_SIGNALS = ("x", "y", "z", "roll", "pitch", "yaw", "velocity_x", "velocity_y", "velocity_z")
+SEGMENT_SIGNALS = (
+    *("x", "y", "z", "roll", "pitch", "yaw", "velocity_x", "velocity_y", "velocity_z"),
+    *("angular_velocity_x", "angular_velocity_y", "angular_velocity_z"),
+)
 _ROOT_STATE = 13
 
 
@@ -85,6 +89,19 @@ def joint_parameters(graph: ModelGraph, body: BodyModel, layout: Layout, floats:
         start = floats.add(section, [getattr(joint, field) for joint in body.joints.values()])
         for i, (name, joint) in enumerate(body.joints.items()):
             follow(layout, getattr(joint, field), start + i, f"{graph.element(name).path}.{field}")
+    _soft_limits(graph, body, layout, floats)
+
+
+def _soft_limits(graph: ModelGraph, body: BodyModel, layout: Layout, floats: Buffer) -> None:
+    """Write range, stiffness and reference velocity of every joint's soft limit; without one, never reached."""
+    limits = [joint.soft_limit for joint in body.joints.values()]
+    never = (-inf, inf, 0.0, 1.0)
+    rows = [(*one.range, one.stiffness, one.reference_velocity) if one else never for one in limits]
+    fields = ("range.0", "range.1", "stiffness", "reference_velocity")
+    for k, section in enumerate(("soft_lower", "soft_upper", "soft_stiffness", "soft_velocity")):
+        start = floats.add(section, [row[k] for row in rows])
+        for i, name in enumerate(body.joints):
+            follow(layout, rows[i][k], start + i, f"{graph.element(name).path}.soft_limit.{fields[k]}")
 
 
 def structure(tree: Tree, integers: Buffer) -> None:

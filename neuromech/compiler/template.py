@@ -373,15 +373,17 @@ def kinematics(s, F, I, T, D):
             axis[topology[r, 1], c] = world_axis(geometry, rotation, r, c)
     for c in range(3):
         linear[0, c] = s[root + 7 + c]
+        angular[0, c] = s[root + 10 + c]
     if <tracked> > 1:
         velocity = s[body + n : body + 2 * n]
         segment_velocities(topology, geometry, velocity, s[root + 7 : root + 13], rotation, position, linear, angular)
     for k in range(<tracked>):
         r = I[<track> + k]
-        at = <segment_signal> + 9 * k
+        at = <segment_signal> + 12 * k
         for c in range(3):
             s[at + c] = position[r, c]
             s[at + 6 + c] = linear[r, c]
+            s[at + 9 + c] = angular[r, c]
         s[at + 3], s[at + 4], s[at + 5] = roll_pitch_yaw(rotation[r])
 
 
@@ -485,7 +487,10 @@ def torques(dt, x, s, u, p, F, I, T, D):
         torque[j] = -k * (s[body + j] - p[<rest_angle> + j]) - d * velocity[j]
         for i in range(j):
             damping[j, i] = 0.0
-        damping[j, j] = d + dt * k
+        lower, upper = p[<soft_lower> + j], p[<soft_upper> + j]
+        push, rise = soft_limit(s[body + j], velocity[j], lower, upper, p[<soft_velocity> + j])
+        torque[j] += p[<soft_stiffness> + j] * push
+        damping[j, j] = d + dt * k + p[<soft_stiffness> + j] * rise
     muscle_torque(force, arms, first, joint, torque)
     if <explicit>:
         return

@@ -12,7 +12,7 @@ from neuromech.components.base import SpecModel
 from neuromech.errors import DocumentError, Problem
 from neuromech.spec.document import Document
 from neuromech.spec.model import Experiment, Protocol
-from neuromech.units import Quantity, quantity
+from neuromech.units import BoundText, Quantity, quantity
 
 
 @dataclass(frozen=True)
@@ -89,7 +89,7 @@ def uses(experiment: Experiment) -> Iterator[tuple[str, str]]:
 
 
 def _walk(value: object, path: str) -> Iterator[tuple[str, str]]:
-    if isinstance(value, Quantity):
+    if isinstance(value, Quantity | BoundText):
         if value.parameter is not None:
             yield path, value.parameter
     elif isinstance(value, SpecModel):

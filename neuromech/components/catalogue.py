@@ -6,10 +6,26 @@ from types import MappingProxyType
 from typing import Self
 
 from neuromech.components.base import Component, Family
+from neuromech.components.body_sensors import (
+    MuscleForceSensor,
+    MuscleLengthSensor,
+    OverextensionSensor,
+    PostureSensor,
+    RectifiedPostureSensor,
+)
 from neuromech.components.muscle_tendon import MuscleTendonUnit
 from neuromech.components.muscles import BrownMuscle
 from neuromech.components.neurons import RateNeuron, RybakInterneuron, RybakNeuron, StaticNeuron
 from neuromech.components.paths import ConstantMomentArms, LeverArms, StraightLines
+from neuromech.components.reflexes import (
+    GatedRelay,
+    GatingSynapse,
+    LatchUnit,
+    LowPass,
+    SampleAndHold,
+    SaturatingNeuron,
+    ThresholdUnit,
+)
 from neuromech.components.sensors import JointSensor, LegLoadSensor, LinkSensor, MuscleSpindle, StretchSensor
 from neuromech.components.synapses import (
     DescendingDrive,
@@ -24,11 +40,18 @@ BUILT_IN: tuple[type[Component], ...] = (
     RybakInterneuron,
     RateNeuron,
     StaticNeuron,
+    SaturatingNeuron,
+    LowPass,
+    GatedRelay,
+    ThresholdUnit,
+    LatchUnit,
+    SampleAndHold,
     DescendingDrive,
     FictiveLoad,
     ExcitatorySynapse,
     InhibitorySynapse,
     InterlimbSynapse,
+    GatingSynapse,
     BrownMuscle,
     MuscleTendonUnit,
     ConstantMomentArms,
@@ -39,6 +62,11 @@ BUILT_IN: tuple[type[Component], ...] = (
     LegLoadSensor,
     JointSensor,
     LinkSensor,
+    MuscleForceSensor,
+    MuscleLengthSensor,
+    PostureSensor,
+    RectifiedPostureSensor,
+    OverextensionSensor,
 )
 
 

@@ -16,6 +16,9 @@ SEGMENT_OUTPUTS = (
     Port("velocity_x", "m/s"),
     Port("velocity_y", "m/s"),
     Port("velocity_z", "m/s"),
+    Port("angular_velocity_x", "deg/s"),
+    Port("angular_velocity_y", "deg/s"),
+    Port("angular_velocity_z", "deg/s"),
 )
 CONTACT_OUTPUTS = (
     Port("force_x", "N"),

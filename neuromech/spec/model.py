@@ -13,12 +13,13 @@ from neuromech.components.base import Drive, Muscle, Neuron, Sensor, SpecModel, 
 from neuromech.spec.fields import KindFromKey, OfCatalogue
 from neuromech.spec.measure import Expected, Measure
 from neuromech.spec.pushes import Push, PushSeries
-from neuromech.spec.scalars import Name, PositiveTime, Seed, Vector, Written
+from neuromech.spec.scalars import Following, Name, PositiveTime, Seed, Vector, Written
 from neuromech.spec.study import Study
 from neuromech.spec.sweep import Sweep
 from neuromech.spec.world import World
 from neuromech.units import (
     ANGLE,
+    ANGULAR_VELOCITY,
     CONTACT_DAMPING,
     CONTACT_STIFFNESS,
     DIMENSIONLESS,
@@ -147,6 +148,18 @@ class Segment(SpecModel):
     shape: Annotated[BoxShape | CapsuleShape, Field(discriminator="kind")] | None = None
 
 
+class SoftLimit(SpecModel):
+    """Ligaments that resist a joint beyond a range, as a damper that grows with the excess (Dzeladini 2013 eq. 2.38).
+
+    The torque is stiffness × excess × (1 + ω/reference_velocity), ω positive when the joint moves on, and none when it
+    comes back faster than `reference_velocity`.
+    """
+
+    range: tuple[Angle, Angle]
+    stiffness: Annotated[Quantity, JOINT_STIFFNESS.non_negative]
+    reference_velocity: Annotated[Quantity, ANGULAR_VELOCITY.positive]
+
+
 class Joint(SpecModel):
     """A joint between two segments. Positive rotation follows the right-hand rule about `axis`."""
 
@@ -156,6 +169,7 @@ class Joint(SpecModel):
     position: Annotated[Vector, Field(description="of the joint in the parent's frame")]
     axis: tuple[Dimensionless, Dimensionless, Dimensionless]
     range: tuple[Angle, Angle] | None = None
+    soft_limit: SoftLimit | None = None
     damping: Annotated[Quantity, JOINT_DAMPING.non_negative] = quantity("0 N m s/rad")
     stiffness: Annotated[Quantity, JOINT_STIFFNESS.non_negative] = quantity("0 N m/rad")
     rest_angle: Angle = quantity("0 deg")
@@ -259,11 +273,14 @@ class Fall(SpecModel):
 
 
 class Protocol(SpecModel):
-    """What happens in time. `initial` sets states by name pattern at time zero: a value, or a distribution."""
+    """What happens in time. `initial` sets states by name pattern at time zero: a value, or a distribution.
+
+    A value may be that of a parameter.
+    """
 
     duration: PositiveTime
     seed: Seed = 0
-    initial: dict[str, Written | Uniform] = {}
+    initial: dict[str, Following | Uniform] = {}
     ramps: dict[Name, Ramp] = {}
     events: dict[Name, Event] = {}
     pushes: dict[Name, Push] = {}

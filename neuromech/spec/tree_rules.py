@@ -9,13 +9,16 @@ from neuromech.spec.node import MapNode, Node, ScalarNode, join
 from neuromech.spec.resolve import Resolved
 from neuromech.spec.shape import Leaf, Names, shape_of, typed
 
+# Values at time zero have the unit of what they set, which the document's types don't know.
+_START = "protocol.initial."
+
 
 def check_tree(resolved: Resolved, catalogue: Catalogue) -> Iterator[Problem]:
     """Yield what is wrong with references to parameters and with paths of `--set`."""
     for path, node, annotation in typed(resolved.tree, Experiment, catalogue):
         if isinstance(node, ScalarNode) and node.parameter is not None:
             shape = shape_of(annotation, catalogue)
-            if not isinstance(shape, Leaf) or shape.unit is None:
+            if (not isinstance(shape, Leaf) or shape.unit is None) and not path.startswith(_START):
                 yield _no_quantity(node, path)
         elif isinstance(node, MapNode) and resolved.through and isinstance(shape_of(annotation, catalogue), Names):
             yield from _new_names(node, path, resolved.through)
