@@ -30,9 +30,9 @@ def muscle_damping(slope: Floats, arms: Floats, first: Integers, joint: Integers
 def soft_limit(angle: float, velocity: float, lower: float, upper: float, reference: float) -> tuple[float, float]:
     """Return torque and damping of a soft limit over its stiffness: rad, and s; Dzeladini 2013 eq. 2.38.
 
-    Beyond the range the torque is the excess times 1 + ω/ω_ref, with ω positive when the joint moves on, and none when it
-    comes back faster than ω_ref. That is a damper, excess/ω_ref, of up to hundreds of N m s/rad: `observer_implicit`
-    keeps it stable.
+    Beyond the range the torque is the excess times 1 + ω/ω_ref, with ω positive when the joint moves on, and none when
+    it comes back faster than ω_ref. That is a damper, excess/ω_ref, of up to hundreds of N m s/rad: it is
+    `observer_implicit` that keeps it stable.
     """
     if angle > upper and velocity > -reference:
         return (upper - angle) * (1.0 + velocity / reference), (angle - upper) / reference

@@ -23,7 +23,8 @@ COMMON = (
     "path_point", "path_point_first", "path_segment", "moved", "length_signal", "velocity_signal",
     "force_slot", "stiffness_slot", "damping_slot", "damping", "joint_stiffness", "rest_angle", "arms", "work",
     "last_velocity", "last_torque", "explicit", "child", "slide", "root", "coupled", "inputs_recorded",
-    "soft_lower", "soft_upper", "soft_stiffness", "soft_velocity", "path_factor", "path_form", "path_peak", "path_zero", "advanced", "muscle_step",
+    "soft_lower", "soft_upper", "soft_stiffness", "soft_velocity",
+    "path_factor", "path_form", "path_peak", "path_zero", "advanced", "muscle_step",
     "slot_tables", "slot_order", "slot_source", "slot_weights", "slot_sums",
 )  # fmt: skip
 

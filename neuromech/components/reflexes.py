@@ -1,7 +1,7 @@
 """Units of reflex controllers: relays that are gated, thresholds, latches, sample-and-hold, first-order units.
 
-A reflex is a chain of connections through such units, each of them an element of the graph: a sensor, a delayed synapse,
-a gated relay that is open in one phase of the cycle, a weighted synapse, a motoneuron.
+A reflex is a chain of connections through such units, each of them an element of the graph: a sensor, a delayed
+synapse, a gated relay that is open in one phase of the cycle, a weighted synapse, a motoneuron.
 """
 
 from typing import Annotated, ClassVar, Literal
@@ -101,7 +101,7 @@ class SampleAndHold(Neuron):
 
 
 class LowPass(Neuron):
-    """First-order low pass of its input, without limits: a synapse to it and one from it are a first-order connection."""
+    """First-order low pass of its input, without limits: synapses to it and from it are a first-order connection."""
 
     kind: Literal["low_pass"] = "low_pass"
     source: ClassVar[str] = "Dzeladini 2013 eq. 2.34 with f − F for f, first order"

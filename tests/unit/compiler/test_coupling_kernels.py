@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from neuromech.compiler.coupling import muscle_damping, muscle_torque, observer_implicit
+from neuromech.compiler.coupling import muscle_damping, muscle_torque, observer_implicit, soft_limit
 from neuromech.compiler.numerics import interpolate, relaxed, solve_symmetric
 
 ARMS = np.array([0.01, -0.02, 0.03, 0.015])
@@ -102,3 +102,22 @@ def test_relaxation_is_the_exact_solution(rate):
 def test_breakpoints_are_joined_by_lines_and_the_later_of_two_holds(t, value):
     p = np.array([0.0, 1.0, 2.0, 2.0, 1.0, 1.0, 3.0, 7.0])
     assert interpolate(t, 0, 4, 0, 4, p) == pytest.approx(value)
+
+
+@pytest.mark.parametrize(
+    ("angle", "velocity", "torque", "damping"),
+    [
+        (0.5, 9.0, 0.0, 0.0),
+        (1.1, 0.0, -0.1, 5.0),
+        (1.1, 0.04, -0.3, 5.0),
+        (1.1, -0.01, -0.05, 5.0),
+        (1.1, -0.03, 0.0, 0.0),
+        (-1.1, 0.0, 0.1, 5.0),
+        (-1.1, -0.04, 0.3, 5.0),
+        (-1.1, 0.03, 0.0, 0.0),
+    ],
+)
+def test_a_soft_limit_resists_beyond_its_range_and_never_pulls(angle, velocity, torque, damping):
+    """Dzeladini 2013 eq. 2.38 with range ±1 rad and a reference velocity of 0.02 rad/s, over the stiffness."""
+    found = soft_limit.py_func(angle, velocity, -1.0, 1.0, 0.02)
+    assert found == pytest.approx((torque, damping), abs=1e-12)
