@@ -8,8 +8,6 @@ from neuromech.cli.problems import Format, write
 from neuromech.cli.terminal import BAD_DOCUMENT, FINISHED, note, write_line
 from neuromech.components.catalogue import Catalogue
 from neuromech.errors import DocumentError, Problem
-from neuromech.graph.model import ModelGraph
-from neuromech.spec.includes import compose
 
 
 def validate(paths: Sequence[Path], form: Format) -> int:
@@ -33,18 +31,10 @@ def problems_of(files: Iterable[Path]) -> list[Problem]:
     found: dict[Problem, None] = {}
     for file in files:
         try:
-            _check_study(checked_graph(file, catalogue), file)
+            checked_graph(file, catalogue)
         except DocumentError as error:
             found.update(dict.fromkeys(error.problems))
     return list(found)
-
-
-def _check_study(graph: ModelGraph, file: Path) -> None:
-    """Check a study where there is one; only then is loaded what knows its measures and algorithms."""
-    if graph.document.experiment.study is not None:
-        from neuromech.study.checks import check_study
-
-        check_study(graph, compose(file))
 
 
 def _verdict(files: int, problems: int) -> str:

@@ -8,6 +8,8 @@ from typing import Any
 
 from ruamel.yaml import YAML
 from ruamel.yaml.comments import CommentedMap
+from ruamel.yaml.nodes import ScalarNode
+from ruamel.yaml.representer import RoundTripRepresenter
 
 from neuromech.components.catalogue import Catalogue
 from neuromech.errors import StudyError
@@ -54,8 +56,19 @@ def _new(document: Document, file: Path, origin: str) -> CommentedMap:
     return content
 
 
+class _Representer(RoundTripRepresenter):
+    """Writes `null` in so many words: a key with nothing after it would no longer drop what a base document says."""
+
+    def represent_null(self, _data: None) -> ScalarNode:
+        return self.represent_scalar("tag:yaml.org,2002:null", "null")
+
+
+_Representer.add_representer(type(None), _Representer.represent_null)
+
+
 def _yaml() -> YAML:
     yaml = YAML()
+    yaml.Representer = _Representer
     yaml.preserve_quotes = True
     yaml.width = WIDTH
     return yaml

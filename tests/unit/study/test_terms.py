@@ -1,10 +1,12 @@
 """Points for measured values: shapes, units, and what cannot be measured."""
 
 import math
+from pathlib import Path
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from ruamel.yaml import YAML
 
 from neuromech.analyse.measures import MeasuredValue
 from neuromech.spec.study import Term
@@ -91,18 +93,26 @@ def test_closer_to_the_goal_is_never_worse(form, values):
     assert term.weighted(order[0]) <= term.weighted(order[1]) + 1e-12
 
 
+def terms_of_page(beginning):
+    """Return the terms that stand in docs/studies.md in the block that begins with a comment."""
+    page = (Path(__file__).parents[3] / "docs" / "studies.md").read_text("utf-8")
+    block = page.partition(f"```yaml\n# {beginning}")[2].partition("\n")[2].partition("```")[0]
+    content = YAML(typ="safe").load(block)
+    return {name: JudgedTerm.of(Term.model_validate(keys)) for name, keys in content.items()}
+
+
 def test_fitness_of_habu_2020_equation_15():
     """F = min(t, 50) + 55 (1 - 1 / (1 + exp(-(pitch - 2) / 0.8))), t in s and pitch in deg."""
-    time = judged(goal="maximize", scale="1 s", up_to="50 s", worst=0)
-    pitch = judged(goal="minimize", shape="logistic", center="2 deg", scale="0.8 deg", weight=55)
+    terms = terms_of_page("Habu 2020, equation 15")
     for t, degrees in ((3.0, 1.0), (49.0, 2.0), (80.0, 7.5)):
         printed = min(t, 50.0) + 55.0 * (1.0 - 1.0 / (1.0 + math.exp(-(degrees - 2.0) / 0.8)))
-        assert time.weighted(t) + pitch.weighted(math.radians(degrees)) == pytest.approx(printed)
+        found = terms["alive"].weighted(t) + terms["level"].weighted(math.radians(degrees))
+        assert found == pytest.approx(printed)
 
 
 def test_criterion_of_dzeladini_2013_equation_2_58():
     """C = d / E · d."""
-    term = judged(times=ANY, per=ANY, goal="maximize", scale="1 m^2/J", worst=0)
+    term = terms_of_page("Dzeladini 2013, equation 2.58")["economy"]
     measured = {"measure": MeasuredValue(12.0, "m"), "times": MeasuredValue(12.0, "m")}
     assert term.weighted(term.value(measured | {"per": MeasuredValue(360.0, "J")})) == pytest.approx(
         12.0 / 360.0 * 12.0
