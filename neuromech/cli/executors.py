@@ -1,12 +1,19 @@
-"""Where a command's runs take place, and how Ctrl-C ends them."""
+"""Where the runs of a command take place."""
 
-import signal
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
-from types import FrameType
-
-from neuromech.errors import MissingExtraError
+from neuromech.cli.terminal import of_extra
+from neuromech.errors import DocumentError, Problem
 from neuromech.study.executors import Executor, ProcessExecutor
+
+
+def check_executor(workers: int | None, dask: str | None) -> None:
+    """Refuse two places at once.
+
+    Raises:
+        DocumentError: processes and a cluster are asked for.
+    """
+    if dask is not None and workers is not None:
+        message, hint = "goes with '--workers' only on this machine", "the cluster says how many workers it has"
+        raise DocumentError([Problem("two-executors", "--dask", message, hint=hint)])
 
 
 def open_executor(workers: int | None, dask: str | None) -> Executor:
@@ -18,26 +25,6 @@ def open_executor(workers: int | None, dask: str | None) -> Executor:
     """
     if dask is None:
         return ProcessExecutor(workers)
-    try:
+    with of_extra("study"):
         from neuromech.study.dask_executor import DaskExecutor
-    except ModuleNotFoundError as error:
-        raise MissingExtraError(str(error.name), "study") from error
     return DaskExecutor(dask)
-
-
-@contextmanager
-def stopped_by_user() -> Iterator[Callable[[], bool]]:
-    """Yield what tells whether Ctrl-C was pressed; a second one ends the block at once with `KeyboardInterrupt`."""
-    pressed = False
-
-    def press(_number: int, _frame: FrameType | None) -> None:
-        nonlocal pressed
-        if pressed:
-            raise KeyboardInterrupt
-        pressed = True
-
-    before = signal.signal(signal.SIGINT, press)
-    try:
-        yield lambda: pressed
-    finally:
-        signal.signal(signal.SIGINT, before)

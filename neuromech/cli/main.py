@@ -21,10 +21,8 @@ Output = Annotated[Path | None, typer.Option(metavar="FILE", help="Where to writ
 AsJson = Annotated[bool, typer.Option("--json", help="Write JSON to stdout instead of a table.")]
 Storage = Annotated[str, typer.Argument(metavar="STORAGE", help="Database of a study: a file or a URL.")]
 StudyName = Annotated[str | None, typer.Option("--name", help="Which study, where the database has several.")]
-Workers = Annotated[
-    int | None, typer.Option(min=1, metavar="N", help="Runs side by side; default: as many as there are cores.")
-]
-Dask = Annotated[str | None, typer.Option(metavar="ADDRESS", help="Dask scheduler whose workers do the runs.")]
+Workers = Annotated[int | None, typer.Option(min=1, metavar="N", help="Processes on this machine; default: all cores.")]
+Dask = Annotated[str | None, typer.Option(metavar="ADDRESS", help="Run on the cluster of this Dask scheduler.")]
 Seeds = Annotated[int | None, typer.Option(min=1, help="Repeat each claim over this many seeds.")]
 
 app = typer.Typer(
@@ -234,10 +232,8 @@ def optimize(
     ] = None,
     name: Annotated[str | None, typer.Option(help="Name of the study; default: that of the document.")] = None,
     resume: Annotated[bool, typer.Option("--resume", help="Go on with a study; begin it where there is none.")] = False,
-    workers: Annotated[int | None, typer.Option(min=1, help="Processes on this machine; default: all cores.")] = None,
-    dask: Annotated[
-        str | None, typer.Option(metavar="ADDRESS", help="Evaluate on the cluster of this Dask scheduler.")
-    ] = None,
+    workers: Workers = None,
+    dask: Dask = None,
     write: Annotated[Path | None, typer.Option(metavar="FILE", help="Write the best candidate to a document.")] = None,
     quiet: Annotated[bool, typer.Option("--quiet", help="No progress.")] = False,
 ) -> int:

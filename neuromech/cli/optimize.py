@@ -1,24 +1,22 @@
 """`neuromech optimize`: begin, continue and write back a study."""
 
 import shlex
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
+from neuromech.cli.executors import check_executor, open_executor
 from neuromech.cli.files import folder_name
 from neuromech.cli.interrupt import stop_on_signals
 from neuromech.cli.scores import score_text
 from neuromech.cli.search_progress import search_progress
-from neuromech.cli.terminal import ENDED_EARLY, FINISHED, note, of_extra
-from neuromech.errors import DocumentError, Problem, StudyError
+from neuromech.cli.terminal import ENDED_EARLY, FINISHED, note
+from neuromech.errors import StudyError
 from neuromech.pipeline import load_document
 from neuromech.report.convergence import convergence_figure
 from neuromech.report.layout import save, style
 from neuromech.study.database import Database
 from neuromech.study.driver import Search
 from neuromech.study.evaluate import Evaluator
-from neuromech.study.executors import Executor, ProcessExecutor
 from neuromech.study.history import best_of
 from neuromech.study.plan import Plan
 from neuromech.study.storage import StoredStudy
@@ -77,7 +75,7 @@ def optimize(request: Request) -> int:
         RunError: no candidate at all could be simulated.
         OSError: a file cannot be written.
     """
-    _check(request)
+    check_executor(request.workers, request.dask)
     opened = _open(request)
     with search_progress(opened.plan.header.stages, shown=not request.quiet) as report:
         search = Search(opened.plan, opened.stored, report)
@@ -88,12 +86,6 @@ def optimize(request: Request) -> int:
         return FINISHED
     note(f"stopped after {done} of {total} evaluations, all of them stored; to go on: {request.command()}")
     return ENDED_EARLY
-
-
-def _check(request: Request) -> None:
-    if request.dask is not None and request.workers is not None:
-        message, hint = "goes with '--workers' only on this machine", "the cluster says how many workers it has"
-        raise DocumentError([Problem("two-executors", "--dask", message, hint=hint)])
 
 
 def _open(request: Request) -> _Opened:
@@ -135,25 +127,13 @@ def _compare(name: str, stored: StoredStudy, plan: Plan) -> None:
 
 
 def _searched(request: Request, opened: _Opened, search: Search) -> str:
-    with stop_on_signals(_stopping) as stop, _executor(request) as executor:
+    with stop_on_signals(_stopping) as stop, open_executor(request.workers, request.dask) as executor:
         executor.prepare(opened.evaluator.prepare)
         return search.run(executor, opened.evaluator, stop)
 
 
 def _stopping() -> None:
     note("stopping when the evaluations under way are complete; Ctrl-C once more drops them")
-
-
-@contextmanager
-def _executor(request: Request) -> Iterator[Executor]:
-    if request.dask is None:
-        with ProcessExecutor(request.workers) as executor:
-            yield executor
-        return
-    with of_extra("study"):
-        from neuromech.study.dask_executor import DaskExecutor
-    with DaskExecutor(request.dask) as cluster:
-        yield cluster
 
 
 def _conclude(request: Request, opened: _Opened, search: Search) -> None:

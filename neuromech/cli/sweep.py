@@ -14,8 +14,9 @@ from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 from rich.table import Table
 
 from neuromech.cli.consoles import notes
-from neuromech.cli.executors import open_executor, stopped_by_user
+from neuromech.cli.executors import check_executor, open_executor
 from neuromech.cli.files import folder_name
+from neuromech.cli.interrupt import stop_on_signals
 from neuromech.cli.terminal import ENDED_EARLY, FINISHED, note, write_json
 from neuromech.errors import DocumentError
 from neuromech.pipeline import load_document
@@ -55,9 +56,10 @@ def sweep(request: Request) -> int:
         StudyError: an unfinished sweep was begun with another document, or no scheduler answers.
         RecordingError: the results cannot be written.
     """
+    check_executor(request.workers, request.dask)
     tasks = _tasks(request)
     found = []
-    with stopped_by_user() as stop, open_executor(request.workers, request.dask) as executor:
+    with stop_on_signals(_stopping) as stop, open_executor(request.workers, request.dask) as executor:
         for task in tasks:
             tree = _carried_out(task, request, executor, stop)
             if tree is None:
@@ -69,6 +71,10 @@ def sweep(request: Request) -> int:
     if request.as_json:
         write_json(found)
     return FINISHED
+
+
+def _stopping() -> None:
+    note("stopping when the runs under way are complete; Ctrl-C once more drops them")
 
 
 def _tasks(request: Request) -> list[SweepTask]:

@@ -121,6 +121,10 @@ def test_changes_of_the_document_are_swept(here):
             "one.yaml:12:1  sweeps  there is no sweep 'levls'. Hint: did you mean 'levels'?\n",
         ),
         (
+            ("sweep", "one.yaml", "--workers", "2", "--dask", "tcp://127.0.0.1:1"),
+            "--dask  goes with '--workers' only on this machine. Hint: the cluster says how many workers it has\n",
+        ),
+        (
             ("sweep", "one.yaml", "--set", "sweeps=null"),
             "the document has no sweep. Hint: write a section 'sweeps', see docs/studies.md\n",
         ),
@@ -152,6 +156,7 @@ def test_a_stopped_sweep_says_how_to_go_on_and_does_so(here, capsys, monkeypatch
     said = capsys.readouterr().err
     journal = "results/one_cell/sweeps/levels/unfinished.jsonl"
     assert said == (
+        "stopping when the runs under way are complete; Ctrl-C once more drops them\n"
         f"stopped; 3 of 4 points are kept in {journal}\n"
         "go on with: neuromech sweep one.yaml levels --set parameters.bias.value=0.6\n"
     )
