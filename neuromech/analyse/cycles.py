@@ -47,6 +47,14 @@ class Cycles:
         edges = np.searchsorted(time, self.onsets)
         return [slice(start, end) for start, end in pairwise(edges) if end > start]
 
+    def normalised(self, time: Array, values: Array, points: int = 101) -> Array:
+        """Return a signal over each cycle at equal parts of it, 0 and 100 % included, shape (n, points).
+
+        Linear interpolation between samples.
+        """
+        parts = np.linspace(0.0, 1.0, points)
+        return np.interp(self.onsets[:-1, None] + self.durations[:, None] * parts, time, values)
+
 
 def onsets(time: Array, values: Array) -> Array:
     """Return the times (s) at which a signal rises through half amplitude.

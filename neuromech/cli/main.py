@@ -5,7 +5,7 @@ import sys
 from collections.abc import Sequence
 from importlib.metadata import version
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal
 
 import typer
 
@@ -23,6 +23,10 @@ Storage = Annotated[str, typer.Argument(metavar="STORAGE", help="Database of a s
 StudyName = Annotated[str | None, typer.Option("--name", help="Which study, where the database has several.")]
 Workers = Annotated[int | None, typer.Option(min=1, metavar="N", help="Processes on this machine; default: all cores.")]
 Dask = Annotated[str | None, typer.Option(metavar="ADDRESS", help="Run on the cluster of this Dask scheduler.")]
+Results = Annotated[Path, typer.Argument(metavar="RESULTS", help="Results file of a run.")]
+From = Annotated[str | None, typer.Option("--from", metavar="TIME", help="Where to begin, for example '5 s'.")]
+To = Annotated[str | None, typer.Option("--to", metavar="TIME", help="Where to end.")]
+View = Annotated[Literal["side", "front", "follow"], typer.Option(help="Where the camera stands.")]
 Seeds = Annotated[int | None, typer.Option(min=1, help="Repeat each claim over this many seeds.")]
 
 app = typer.Typer(
@@ -72,6 +76,7 @@ def run(
     as_json: AsJson = False,
     figures: Annotated[bool, typer.Option("--figures/--no-figures", help="Draw figures.", show_default=False)] = True,
     quiet: Annotated[bool, typer.Option("--quiet", help="No progress bar and no tables.")] = False,
+    video: Annotated[bool, typer.Option("--video", help="Film the body.")] = False,
 ) -> int:
     """Simulate a document and write its results.
 
@@ -80,7 +85,61 @@ def run(
     with without_banners():
         from neuromech.cli.run import Request, run
 
-    return run(Request(spec, tuple(overrides or ()), seed, duration, out, as_json, figures, quiet))
+    return run(Request(spec, tuple(overrides or ()), seed, duration, out, as_json, figures, quiet, video))
+
+
+@app.command()
+@exits
+def figures(
+    results: Results,
+    out: Annotated[Path, typer.Option(metavar="DIR", help="Output folder.")],
+    form: Annotated[Literal["png", "svg"], typer.Option("--format", help="Of the files.")] = "png",
+    after: Annotated[str | None, typer.Option(metavar="TIME", help="When the run was disturbed.")] = None,
+) -> int:
+    """Draw the figures of a run again.
+
+    Each figure is drawn that the recorded signals allow; for the others the command says what they lack.
+    """
+    with without_banners():
+        from neuromech.cli.pictures import figures
+
+    return figures(results, out, form, after)
+
+
+@app.command()
+@exits
+def stills(
+    results: Results,
+    out: Annotated[Path, typer.Option(metavar="FILE", help="PNG or SVG file to write.")],
+    start: From = None,
+    end: To = None,
+    view: View = "side",
+    number: Annotated[int, typer.Option(min=1, max=60, help="Number of pictures.")] = 6,
+) -> int:
+    """Draw a strip of pictures of the body, by default of one cycle."""
+    with without_banners():
+        from neuromech.cli.pictures import Stretch, stills
+
+    return stills(results, out, Stretch(start, end), view, number)
+
+
+@app.command()
+@exits
+def video(
+    results: Results,
+    out: Annotated[Path, typer.Option(metavar="FILE", help="MP4 file to write.")],
+    start: From = None,
+    end: To = None,
+    view: View = "side",
+    size: Annotated[str, typer.Option(metavar="WxH", help="Width and height in pixels.")] = "1280x720",
+    fps: Annotated[int, typer.Option(min=1, max=240, help="Pictures per second of the film.")] = 30,
+    slower: Annotated[float, typer.Option(min=0.01, max=1000.0, help="Slow motion by this factor.")] = 1.0,
+) -> int:
+    """Film the body as it was recorded."""
+    with without_banners():
+        from neuromech.cli.pictures import Stretch, VideoRequest, video
+
+    return video(VideoRequest(results, out, Stretch(start, end), view, size, fps, slower))
 
 
 @app.command()

@@ -48,3 +48,15 @@ def counted(total: int, shown: bool) -> Iterator[Callable[[str], None]]:
         task = progress.add_task("", total=total, completed=-1)
         yield lambda name: progress.update(task, advance=1, description=name)
         progress.update(task, completed=total, description="")
+
+
+@contextmanager
+def drawn(shown: bool) -> Iterator[Callable[[int, int], None]]:
+    """Show a bar on stderr while a film is drawn; yield what takes the number of pictures so far, and of all."""
+    if not shown:
+        yield lambda number, count: None
+        return
+    columns = (TextColumn("picture {task.completed:.0f} of {task.total:.0f}"), BarColumn(), TimeRemainingColumn())
+    with Progress(*columns, console=notes()) as progress:
+        task = progress.add_task("", total=1)
+        yield lambda number, count: progress.update(task, completed=number, total=count)

@@ -1,6 +1,6 @@
 """Protocol → breakpoints of every parameter that moves during a run."""
 
-from collections.abc import Iterable, Iterator, Sized
+from collections.abc import Iterable, Iterator, Mapping, Sized
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -44,6 +44,16 @@ def timeline(document: Document, layout: Layout, integers: Buffer, floats: Buffe
     floats.add("breakpoint_value", [value for some in points for _, value in some])
     integers.add("bound_start", _starts(bound))
     integers.add("bound_slot", np.concatenate([np.zeros(0, dtype=np.int64), *bound]))
+
+
+def course(protocol: Protocol, values: Mapping[str, str | int | float]) -> dict[str, list[tuple[float, float]]]:
+    """Return {parameter that moves during a run: its breakpoints}, each a time (s) and a value in SI units.
+
+    Args:
+        protocol: of the document.
+        values: value of each parameter at the start, as written.
+    """
+    return {name: _breakpoints(quantity(str(values[name])), changes) for name, changes in _changes(protocol).items()}
 
 
 def _changes(protocol: Protocol) -> dict[str, list[_Change]]:

@@ -7,7 +7,19 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
-from neuromech.report.layout import BLUE, GREEN, RED, Trace, by_scope, grid, recent, rhythm_of, title, trace
+from neuromech.report.layout import (
+    BLUE,
+    GREEN,
+    RED,
+    NotDrawableError,
+    Trace,
+    by_scope,
+    grid,
+    recent,
+    rhythm_of,
+    title,
+    trace,
+)
 from neuromech.simulate.recording import Recording
 
 LAYERS = ("RG", "PF", "Mn")
@@ -17,15 +29,18 @@ _ROW_FILL = 0.85
 """Part of a row's height that the largest activity of its layer takes."""
 
 
-def activity_figure(recording: Recording) -> Figure | None:
-    """Return stacked activities, one column per leg, over the last few cycles; None where none was recorded.
+def activity_figure(recording: Recording) -> Figure:
+    """Return stacked activities, one column per leg, over the last few cycles.
 
     Rows are RG, PF and Mn neurons from top to bottom, each layer to its own scale. Grey bands show where the first
     row is the more active of the first two (the flexor phase); a dashed frame marks one cycle of the motoneurons.
+
+    Raises:
+        NotDrawableError: no activity was recorded.
     """
     scopes = {scope: _rows(names) for scope, names in by_scope(recording, "activity").items()}
     if not scopes:
-        return None
+        raise NotDrawableError("no activity is recorded")
     height = max(len(names) for names in scopes.values()) * 0.36 + 1.0
     figure, axes = grid(1, len(scopes), 3.1 if len(scopes) > 1 else 5.5, height)
     window = recent(recording)

@@ -8,6 +8,7 @@ from rich.text import Text
 from neuromech.analyse.measures import MeasuredValue, measure
 from neuromech.analyse.phases import GAITS
 from neuromech.report.layout import by_scope
+from neuromech.report.steps import foot_patterns
 from neuromech.simulate.recording import Recording
 from neuromech.spec.measure import Measure
 from neuromech.units import Quantity
@@ -26,7 +27,7 @@ def gait_measures(recording: Recording) -> Found:
     A foot is all the contacts in the scope of a leg. Phases are those after the first leg. `speed` is that of the
     segment that stands in no scope, `gait` has the entry `body`.
     """
-    feet = _feet(recording)
+    feet = foot_patterns(recording)
     if recording.provenance.anatomy.weight == 0.0 or not feet:
         return {}
     counts = {leg: _take(recording, "touchdowns", feet=[foot]) for leg, foot in feet.items()}
@@ -68,15 +69,6 @@ def _of_body(recording: Recording, feet: Mapping[str, str]) -> dict[str, Mapping
         found["speed"] = {roots[0]: _take(recording, "speed", segment=roots[0])}
     if set(feet) == set(QUADRUPED):
         found["gait"] = {"body": _take(recording, "gait", feet=[feet[leg] for leg in QUADRUPED])}
-    return found
-
-
-def _feet(recording: Recording) -> dict[str, str]:
-    """Return {leg: pattern of its contacts}; a contact in no scope is a foot of its own."""
-    found: dict[str, str] = {}
-    for scope, names in by_scope(recording, "force_z").items():
-        contacts = [name.removesuffix(".force_z") for name in names]
-        found |= {scope: f"{scope}.*"} if scope else {contact: contact for contact in contacts}
     return found
 
 

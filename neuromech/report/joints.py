@@ -14,6 +14,7 @@ from neuromech.analyse.measures import measure
 from neuromech.analyse.windows import Array
 from neuromech.report.layout import (
     TIME_COLORS,
+    NotDrawableError,
     Trace,
     axis_label,
     by_scope,
@@ -35,14 +36,17 @@ RARE = 0.5
 """Percentage of samples on either side that may leave the frame of a phase plane."""
 
 
-def joint_angle_figure(recording: Recording) -> Figure | None:
-    """Return joint angles, one row per leg: the whole run, and the last few cycles; None where none was recorded.
+def joint_angle_figure(recording: Recording) -> Figure:
+    """Return joint angles, one row per leg: the whole run, and the last few cycles.
 
     Dashed lines show the centre of oscillation over the last few cycles, as in Habu 2020 Fig. 3-1.
+
+    Raises:
+        NotDrawableError: no joint angle was recorded.
     """
     scopes = by_scope(recording, "angle")
     if not scopes:
-        return None
+        raise NotDrawableError("no joint angle is recorded")
     options = {"sharex": "col", "sharey": "row", "width_ratios": [2.2, 1.0]}
     figure, axes = grid(len(scopes), 2, 4.6, 2.1, **options)
     start, end = recent(recording)
@@ -71,15 +75,17 @@ def _angle(whole: Axes, late: Axes, recording: Recording, name: str, start: floa
     late.plot(one.time, one.values, color=line.get_color(), label=label)
 
 
-def phase_plane_figure(recording: Recording) -> Figure | None:
+def phase_plane_figure(recording: Recording) -> Figure:
     """Return joint velocity against joint angle, coloured by time, one panel per joint, a leg's joints side by side.
 
-    None where no joint was recorded with both angle and velocity. Rare excursions, such as the first jerk of a run,
-    leave the frame.
+    Rare excursions, such as the first jerk of a run, leave the frame.
+
+    Raises:
+        NotDrawableError: no joint was recorded with both angle and velocity.
     """
-    joints = _joints_with_velocity(recording)
+    joints = joints_with_velocity(recording)
     if not joints:
-        return None
+        raise NotDrawableError("no joint is recorded with angle and velocity")
     width = max(Counter(joint.rpartition(".")[0] for joint in joints).values())
     names = [" ".join(joint.rsplit(".", 1)) for joint in joints]
     figure, axes = panels(names, 2.7, 2.1, columns=width if width > 1 else 2)
@@ -91,7 +97,8 @@ def phase_plane_figure(recording: Recording) -> Figure | None:
     return figure
 
 
-def _joints_with_velocity(recording: Recording) -> list[str]:
+def joints_with_velocity(recording: Recording) -> list[str]:
+    """Return the joints that were recorded with angle and velocity, leg after leg."""
     velocities = set(recording.match("*.velocity"))
     joints = (name.removesuffix(".angle") for name in recording.match("*.angle"))
     return sorted((joint for joint in joints if f"{joint}.velocity" in velocities), key=_scope_order(recording))
@@ -110,13 +117,13 @@ def _path(axes: Axes, angle: Trace, velocity: Trace, normalize: Normalize) -> No
     segments = np.stack((points[:-1], points[1:]), axis=1)
     times = np.linspace(angle.time[0], angle.time[-1], len(segments))
     axes.add_collection(LineCollection(list(segments), array=times, cmap=TIME_COLORS, norm=normalize, linewidths=0.7))
-    axes.set_xlim(*_usual_range(points[:, 0]))
-    axes.set_ylim(*_usual_range(points[:, 1]))
+    axes.set_xlim(*usual_range(points[:, 0]))
+    axes.set_ylim(*usual_range(points[:, 1]))
     axes.set_xlabel(axis_label("angle", angle.unit))
     axes.set_ylabel(axis_label("velocity", velocity.unit))
 
 
-def _usual_range(values: Array) -> tuple[float, float]:
+def usual_range(values: Array) -> tuple[float, float]:
     """Return the range of all but the rarest values, with a margin."""
     finite = values[np.isfinite(values)]
     if len(finite) == 0:

@@ -34,6 +34,10 @@ _STYLE = Path(__file__).with_name("figures.mplstyle")
 FileFormat = Literal["png", "svg"]
 
 
+class NotDrawableError(Exception):
+    """A recording does not hold what a figure shows; the text says what is missing (`no joint angle is recorded`)."""
+
+
 @contextmanager
 def style() -> Iterator[None]:
     """Draw and save with the package's style; the user's own settings are back afterwards."""
@@ -112,6 +116,13 @@ def by_scope(recording: Recording, quantity: str, unit: str | None = None) -> di
         if unit is None or recording.unit(name) == unit:
             found.setdefault(".".join(name.split(".")[:-2]), []).append(name)
     return found
+
+
+def root_of(recording: Recording, *quantities: str) -> str:
+    """Return the first segment that stands in no scope and has all quantities: the trunk; empty without one."""
+    elements = [name.rpartition(".")[0] for name in by_scope(recording, quantities[0]).get("", [])]
+    segments = [element for element in elements if f"{element}.force_z" not in recording.names]
+    return next((one for one in segments if all(f"{one}.{quantity}" in recording.names for quantity in quantities)), "")
 
 
 def title(recording: Recording, scope: str) -> str:

@@ -2,15 +2,19 @@
 
 from matplotlib.figure import Figure
 
-from neuromech.report.layout import axis_label, by_scope, panels, recent, title, trace
+from neuromech.report.layout import NotDrawableError, axis_label, by_scope, panels, recent, title, trace
 from neuromech.simulate.recording import Recording
 
 
-def muscle_force_figure(recording: Recording) -> Figure | None:
-    """Return muscle forces, one panel per leg, over the last few cycles; None where none was recorded."""
+def muscle_force_figure(recording: Recording) -> Figure:
+    """Return muscle forces, one panel per leg, over the last few cycles.
+
+    Raises:
+        NotDrawableError: no muscle force was recorded.
+    """
     scopes = by_scope(recording, "force")
     if not scopes:
-        return None
+        raise NotDrawableError("no muscle force is recorded")
     window = recent(recording)
     figure, axes = panels([title(recording, scope) for scope in scopes], 4.6, 2.3, sharex=True)
     for one, names in zip(axes, scopes.values(), strict=True):

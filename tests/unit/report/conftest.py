@@ -64,8 +64,11 @@ def group(time, signals):
     return GroupData(time, tuple(signals), values, tuple(unit for unit, _ in signals.values()))
 
 
-def origin(outcome, anatomy=NO_BODY):
-    return Provenance("suspended cat", "", "0", {}, "pybullet", "any", 0, {}, outcome, outcome.time, 24.0, anatomy)
+def origin(outcome, anatomy=NO_BODY, specification="", parameters=None):
+    parameters, end = parameters or {}, outcome.time
+    return Provenance(
+        "suspended cat", specification, "0", {}, "pybullet", "any", 0, parameters, outcome, end, 24.0, anatomy
+    )
 
 
 @pytest.fixture
@@ -75,7 +78,9 @@ def cat():
     def make(load=0.0, seconds=12.0, outcome=None):
         fine, coarse = np.arange(0.0, seconds, 0.001), np.arange(0.0, seconds, 0.005)
         groups = {"network": group(fine, network(fine)), "body": group(coarse, body(coarse, load))}
-        return Recording.from_groups(groups, origin(outcome or Outcome("finished", seconds), Anatomy(6.0, 9.81, {})))
+        return Recording.from_groups(
+            groups, origin(outcome or Outcome("finished", seconds), Anatomy(6.0, 9.81, {}), "body: {}")
+        )
 
     return make
 
@@ -84,9 +89,9 @@ def cat():
 def record():
     """Make a recording from {name: (unit, values)} sampled at 1 kHz."""
 
-    def make(signals, outcome=None, mass=0.0):
+    def make(signals, outcome=None, mass=0.0, specification="", parameters=None):
         time = np.arange(len(next(iter(signals.values()))[1])) * 0.001
-        source = origin(outcome or Outcome("finished", 1.0), Anatomy(mass, 9.81, {}))
+        source = origin(outcome or Outcome("finished", 1.0), Anatomy(mass, 9.81, {}), specification, parameters)
         return Recording.from_groups({"all": group(time, signals)}, source)
 
     return make

@@ -1,0 +1,88 @@
+"""Joint angles over one cycle, mean and standard deviation over cycles, as in Habu 2020 Fig. 3-5."""
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from neuromech.analyse.contacts import Footfalls
+from neuromech.analyse.cycles import Cycles
+from neuromech.report.layout import BLUE, NotDrawableError, axis_label, by_scope, grid, rhythm_of, title, trace
+from neuromech.report.steps import feet, last_cycles, strides_of
+from neuromech.simulate.recording import Recording
+
+AVERAGED_CYCLES = 10
+
+
+def cycle_figure(recording: Recording) -> Figure:
+    """Return the joint angles of each leg over 0 to 100 % of its cycle: the mean of the last ten, and one sd around it.
+
+    A cycle begins at touchdown; of a leg that makes no strides, at the onset of its first rhythmic neuron, or of the
+    joint itself. Bars show, mean over cycles, when the foot is loaded; whiskers one standard deviation of their end.
+
+    Raises:
+        NotDrawableError: no joint angle was recorded, or none is rhythmic.
+    """
+    scopes = by_scope(recording, "angle")
+    if not scopes:
+        raise NotDrawableError("no joint angle is recorded")
+    contacts = _contacts(recording)
+    found = {scope: _cycles(recording, scope, contacts.get(scope)) for scope in scopes}
+    legs = {scope: cycles for scope, cycles in found.items() if cycles is not None}
+    if not legs:
+        raise NotDrawableError("no leg moves rhythmically")
+    rows = max(len(scopes[scope]) for scope in legs)
+    figure, axes = grid(rows, len(legs), 2.1 if len(legs) > 1 else 4.0, 1.5, sharex=True)
+    for column, (scope, (cycles, start)) in enumerate(legs.items()):
+        for row in range(rows):
+            if row < len(scopes[scope]):
+                _panel(axes[row][column], recording, scopes[scope][row], cycles)
+                _bar(axes[row][column], contacts.get(scope), cycles)
+            else:
+                axes[row][column].remove()
+        axes[0][column].set_title(title(recording, scope), loc="left")
+        axes[len(scopes[scope]) - 1][column].set_xlabel(f"% of cycle from\n{start}")
+    return figure
+
+
+def _contacts(recording: Recording) -> dict[str, Footfalls]:
+    try:
+        return feet(recording)
+    except NotDrawableError:
+        return {}
+
+
+def _cycles(recording: Recording, scope: str, foot: Footfalls | None) -> tuple[Cycles, str] | None:
+    """Return the last cycles of a leg and the name of their beginning, None where nothing is rhythmic."""
+    strides = None if foot is None else strides_of(foot)
+    if strides is not None:
+        return last_cycles(strides.cycles, AVERAGED_CYCLES), "touchdown"
+    names = [name for kind in ("activity", "angle") for name in by_scope(recording, kind).get(scope, [])]
+    for name in names:
+        cycles = rhythm_of(recording, name)
+        if cycles is not None:
+            return last_cycles(cycles, AVERAGED_CYCLES), f"onset of {name.split('.')[-2]}"
+    return None
+
+
+def _panel(axes: Axes, recording: Recording, name: str, cycles: Cycles) -> None:
+    angle = trace(recording, name)
+    curves = cycles.normalised(angle.time, angle.values)
+    mean, deviation = curves.mean(axis=0), curves.std(axis=0)
+    percent = np.linspace(0.0, 100.0, curves.shape[1])
+    axes.fill_between(percent, mean - deviation, mean + deviation, color=BLUE, alpha=0.25, linewidth=0.0)
+    axes.plot(percent, mean, color=BLUE)
+    axes.set_xlim(0.0, 100.0)
+    axes.set_xticks([0, 25, 50, 75, 100])
+    axes.set_ylabel(axis_label(angle.element, angle.unit))
+    axes.margins(y=0.15)
+
+
+def _bar(axes: Axes, foot: Footfalls | None, cycles: Cycles) -> None:
+    strides = None if foot is None else strides_of(foot)
+    if strides is None:
+        return
+    duty = 100.0 * strides.duty_factors[-len(cycles.durations) :]
+    transform = axes.get_xaxis_transform()
+    mean = float(duty.mean())
+    axes.plot([0.0, mean], [0.03, 0.03], color="black", linewidth=3.0, solid_capstyle="butt", transform=transform)
+    axes.errorbar(mean, 0.03, xerr=float(duty.std()), color="0.5", capsize=2.0, linewidth=0.8, transform=transform)
