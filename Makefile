@@ -5,7 +5,7 @@ BIN := $(VENV)/bin
 LOWEST := .venv-lowest
 PEERS := .venv-bench
 
-.PHONY: walk test check verify bench test-lowest clean
+.PHONY: walk test check verify gallery bench test-lowest clean
 
 walk: $(VENV)/.installed  ## validate and run the suspended cat: figures, results, claims (met or not)
 	$(BIN)/neuromech validate specs
@@ -23,6 +23,9 @@ check: $(VENV)/.developed  ## style, types, layers
 verify: $(VENV)/.developed  ## the slow proofs, and every claim of the shipped documents
 	$(BIN)/python -m pytest -m slow
 	$(BIN)/neuromech verify specs
+
+gallery: $(VENV)/.developed  ## draw the pictures of docs/gallery again
+	$(BIN)/python .ci/gallery.py
 
 bench: $(VENV)/.developed $(PEERS)/.installed  ## ratios to peers and limits, measured side by side
 	$(BIN)/neuromech bench --python $(PEERS)/bin/python

@@ -74,7 +74,7 @@ def write_figures(
         folder: for the files.
         formats: of the files.
         body: the body that was recorded; that of the recorded document where None is given.
-        after: time (s) of a disturbance, for the figure `recovery`; the protocol's first event where None is given.
+        after: time (s) of a disturbance, for the figure `recovery`; that of the protocol where None is given.
 
     Raises:
         OSError: the folder cannot be written.

@@ -5,13 +5,16 @@ from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Any
 
+import numpy as np
 from ruamel.yaml import YAML
 
+from neuromech.analyse.windows import Array
 from neuromech.compiler.timeline import course
 from neuromech.simulate.recording import Recording
 from neuromech.spec.model import Protocol
 from neuromech.units import quantity
 
+_PARTS = ("ramps", "events", "pushes", "push_series")
 _NOTHING: Mapping[str, Any] = MappingProxyType({})
 
 
@@ -42,16 +45,38 @@ def moving_parameters(recording: Recording) -> dict[str, Course]:
     return found
 
 
-def first_change(recording: Recording) -> tuple[str, float] | None:
-    """Return name and time (s) of the first event or ramp of the recorded protocol, None where it has none."""
+def first_disturbance(recording: Recording) -> tuple[str, float] | None:
+    """Return name and time (s) of what first disturbs a run, None where its protocol has nothing of the kind.
+
+    That is a push (from when its recorded force acts, else from its `start`), an event or a ramp.
+    """
     protocol = _protocol(recording)
-    changes = [(float(event.at), name) for name, event in protocol.events.items()]
-    changes += [(float(ramp.start), name) for name, ramp in protocol.ramps.items()]
-    return next(((name, time) for time, name in sorted(changes)), None)
+    found = [(float(event.at), name) for name, event in protocol.events.items()]
+    found += [(float(ramp.start), name) for name, ramp in protocol.ramps.items()]
+    starts = {name: float(push.start) for name, push in protocol.pushes.items()}
+    starts |= {name: float(series.start) for name, series in protocol.push_series.items()}
+    found += [(_first_force(recording, name, start), name) for name, start in starts.items()]
+    return next(((name, time) for time, name in sorted(found)), None)
+
+
+def push_names(recording: Recording) -> set[str]:
+    """Return the names of the pushes of the recorded document."""
+    protocol = _protocol(recording)
+    return {*protocol.pushes, *protocol.push_series}
+
+
+def _first_force(recording: Recording, push: str, start: float) -> float:
+    """Return when the recorded force of a push begins to act (s), `start` where it was not recorded or never acts."""
+    names = [name for name in recording.match(f"{push}.force_*") if recording.signal(name)[1].any()]
+    return min((_time_of_first(*recording.signal(name)) for name in names), default=start)
+
+
+def _time_of_first(time: Array, values: Array) -> float:
+    return float(time[np.flatnonzero(values)[0]])
 
 
 def _protocol(recording: Recording) -> Protocol:
     document = YAML(typ="safe").load(recording.provenance.specification) or _NOTHING
     written = document.get("protocol", _NOTHING)
-    parts = {name: written[name] for name in ("ramps", "events") if name in written}
+    parts = {name: written[name] for name in _PARTS if name in written}
     return Protocol.model_validate({"duration": f"{max(recording.outcome.time, 1e-9)} s"} | parts)

@@ -6,7 +6,7 @@ from matplotlib.figure import Figure
 
 from neuromech.report.joints import joints_with_velocity, usual_range
 from neuromech.report.layout import BLUE, GREEN, RED, NotDrawableError, axis_label, panels, trace
-from neuromech.report.protocol import first_change
+from neuromech.report.protocol import first_disturbance
 from neuromech.simulate.recording import Recording
 
 SPAN = 5.0
@@ -23,10 +23,10 @@ def recovery_figure(recording: Recording, after: float | None = None) -> Figure:
 
     Args:
         recording: of a run.
-        after: time (s) of what happened; the first event or ramp of the protocol where None is given.
+        after: time (s) of what happened; of what first disturbs the run by its protocol where None is given.
 
     Raises:
-        NotDrawableError: no time is given and the protocol has no event, the run ended before it, or no joint was
+        NotDrawableError: no time is given and the protocol disturbs nothing, the run ended before it, or no joint was
             recorded with both angle and velocity.
     """
     what, start = _event(recording) if after is None else ("the event", after)
@@ -45,9 +45,9 @@ def recovery_figure(recording: Recording, after: float | None = None) -> Figure:
 
 
 def _event(recording: Recording) -> tuple[str, float]:
-    found = first_change(recording)
+    found = first_disturbance(recording)
     if found is None:
-        raise NotDrawableError("the protocol has no event, and no time was given")
+        raise NotDrawableError("the protocol disturbs nothing, and no time was given")
     return found
 
 

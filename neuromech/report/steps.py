@@ -9,6 +9,7 @@ from neuromech.analyse.cycles import Cycles
 from neuromech.analyse.windows import NotMeasurableError, View
 from neuromech.errors import MeasureError
 from neuromech.report.layout import NotDrawableError, by_scope
+from neuromech.report.protocol import push_names
 from neuromech.simulate.recording import Recording
 from neuromech.spec.measure import Measure
 
@@ -41,11 +42,10 @@ def feet(recording: Recording) -> dict[str, Footfalls]:
 def foot_patterns(recording: Recording) -> dict[str, str]:
     """Return {leg: pattern of the contacts of its foot}; a contact in no scope is a foot of its own."""
     found: dict[str, str] = {}
+    pushes = push_names(recording)
     for scope, names in by_scope(recording, "force_z").items():
-        if scope:
-            found[scope] = f"{scope}.*"
-        else:
-            found |= {name.removesuffix(".force_z"): name.removesuffix(".force_z") for name in names}
+        contacts = [name.removesuffix(".force_z") for name in names]
+        found |= {scope: f"{scope}.*"} if scope else {name: name for name in contacts if name not in pushes}
     return found
 
 

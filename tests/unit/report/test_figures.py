@@ -30,7 +30,7 @@ def test_figures_are_written_for_the_signals_that_exist(cat, tmp_path):
         "no foot touches the ground": ["footfall", "leg_loads", "flexor_contact"],
         "roll and pitch of the root are not recorded": ["inclination"],
         "trunk does not move": ["speed"],
-        "the protocol has no event, and no time was given": ["recovery"],
+        "the protocol disturbs nothing, and no time was given": ["recovery"],
         "the body in the recording cannot be used: body has no segment": ["stills"],
     }
     for path in (tmp_path / "air").iterdir():

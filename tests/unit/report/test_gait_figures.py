@@ -179,3 +179,29 @@ def test_recovery_has_a_colour_for_every_five_seconds_after_the_event(record):
     assert [line.get_label() for line in axes.get_lines()] == ["before", "0 to 5 s"]
     with pytest.raises(NotDrawableError, match="ended before"):
         recovery_figure(recording, after=9.0)
+
+
+PUSHED = """
+protocol:
+  duration: 8 s
+  pushes:
+    shove: {segment: trunk, force: [0 N, 0 N, -9 N], start: 1 s, delay: {uniform: [1 s, 2 s]}, duration: 100 ms}
+"""
+
+
+def test_a_push_is_no_foot_and_begins_when_its_force_does(record):
+    signals = {"LH.hip.angle": ("rad", np.sin(TIME)), "LH.hip.velocity": ("rad/s", np.cos(TIME))}
+    signals["LH.foot.force_z"] = ("N", stepping(0.0))
+    signals["shove.force_z"] = ("N", np.where(abs(TIME - 2.55) < 0.0501, -9.0, 0.0))
+    recording = record(signals, PUSHED)
+    assert list(feet(recording)) == ["LH"]
+    (axes,) = recovery_figure(recording).axes
+    after = axes.get_lines()[1].get_xdata()
+    assert after[0] == pytest.approx(np.rad2deg(np.sin(2.5)), abs=0.1)
+    assert after[-1] == pytest.approx(np.rad2deg(np.sin(7.5)), abs=0.1)
+
+
+def test_no_disturbance_no_recovery(record):
+    signals = {"LH.hip.angle": ("rad", np.sin(TIME)), "LH.hip.velocity": ("rad/s", np.cos(TIME))}
+    with pytest.raises(NotDrawableError, match="disturbs nothing"):
+        recovery_figure(record(signals))
