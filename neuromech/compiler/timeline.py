@@ -8,11 +8,11 @@ import numpy as np
 
 from neuromech.compiler.buffers import Buffer
 from neuromech.compiler.layout import Layout
-from neuromech.components.base import SpecModel
 from neuromech.errors import DocumentError, Problem
 from neuromech.spec.document import Document
-from neuromech.spec.model import Experiment, Protocol
-from neuromech.units import BoundText, Quantity, quantity
+from neuromech.spec.follow import followers
+from neuromech.spec.model import Protocol
+from neuromech.units import quantity
 
 
 @dataclass(frozen=True)
@@ -84,33 +84,13 @@ def _overlaps(document: Document, driven: dict[str, list[_Change]]) -> Iterator[
 
 
 def _immovable(document: Document, driven: dict[str, list[_Change]], layout: Layout) -> Iterator[Problem]:
-    for path, name in uses(document.experiment):
-        if name in driven and path not in layout.followed:
-            message = f"parameter '{name}' cannot change during a run, because it sets {path}"
+    for use in followers(document.experiment):
+        name = use.parameter
+        if name in driven and use.path not in layout.followed:
+            message = f"parameter '{name}' cannot change during a run, because it sets {use.path}"
             yield document.problem(
                 "immovable-parameter", driven[name][0].path, message, None, "give it one value for the whole run"
             )
-
-
-def uses(experiment: Experiment) -> Iterator[tuple[str, str]]:
-    """Yield (path, parameter) of every value of a document that follows a parameter."""
-    for section in ("network", "muscles", "sensors", "instances", "body", "world", "protocol", "solver", "record"):
-        yield from _walk(getattr(experiment, section), section)
-
-
-def _walk(value: object, path: str) -> Iterator[tuple[str, str]]:
-    if isinstance(value, Quantity | BoundText):
-        if value.parameter is not None:
-            yield path, value.parameter
-    elif isinstance(value, SpecModel):
-        for name in type(value).model_fields:
-            yield from _walk(getattr(value, name), f"{path}.{name}")
-    elif isinstance(value, dict):
-        for name, item in value.items():
-            yield from _walk(item, f"{path}.{name}")
-    elif isinstance(value, tuple):
-        for index, item in enumerate(value):
-            yield from _walk(item, f"{path}.{index}")
 
 
 def _starts(lists: Iterable[Sized]) -> list[int]:

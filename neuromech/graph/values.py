@@ -1,11 +1,10 @@
 """Every value of a part of a document as text in the unit of its field, by dotted path."""
 
-from collections.abc import Iterator, Mapping
-from typing import Any, get_args
+from collections.abc import Mapping
 
 from pydantic import BaseModel
-from pydantic.fields import FieldInfo
 
+from neuromech.spec.follow import field_unit
 from neuromech.units import Quantity, Unit, unit_factor
 
 
@@ -20,7 +19,7 @@ def values(part: BaseModel, path: str, leave_out: frozenset[str] = frozenset()) 
     found: dict[str, str] = {}
     for name, field in type(part).model_fields.items():
         if name not in leave_out:
-            found |= _values(getattr(part, name), f"{path}.{name}", _unit(field))
+            found |= _values(getattr(part, name), f"{path}.{name}", field_unit(field))
     return found
 
 
@@ -49,16 +48,3 @@ def _text(value: object, unit: Unit | None) -> str:
         symbol = unit.example if unit is not None else ""
         return f"{float(value) / unit_factor(symbol)[0]:.10g} {symbol}".strip()
     return str(value)
-
-
-def _unit(field: FieldInfo) -> Unit | None:
-    return next(_units([*field.metadata, field.annotation]), None)
-
-
-def _units(marks: list[Any]) -> Iterator[Unit]:
-    """Yield the units that stand anywhere inside an annotation."""
-    for mark in marks:
-        if isinstance(mark, Unit):
-            yield mark
-        else:
-            yield from _units([*get_args(mark)])

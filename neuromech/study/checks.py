@@ -3,18 +3,22 @@
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
+from pydantic_core import PydanticCustomError
+
 from neuromech.components.catalogue import Catalogue
 from neuromech.errors import DocumentError, Problem
 from neuromech.graph.build import build
 from neuromech.graph.check import check
 from neuromech.graph.model import ModelGraph
 from neuromech.spec.document import Document
+from neuromech.spec.follow import Follower, followers
 from neuromech.spec.includes import Composed
 from neuromech.spec.load import load_composed
 from neuromech.spec.study import Study
 from neuromech.study.algorithms.catalogue import AlgorithmCatalogue
 from neuromech.study.objective_checks import objective_problems
 from neuromech.study.scenarios import written_overrides
+from neuromech.study.space import Space
 
 
 def check_study(graph: ModelGraph, composed: Composed, overrides: tuple[str, ...] = ()) -> Study:
@@ -33,13 +37,36 @@ def check_study(graph: ModelGraph, composed: Composed, overrides: tuple[str, ...
     if study is None:
         hint = "docs/studies.md shows what stands in one"
         raise DocumentError([document.problem("no-study", "", "has no section 'study'", hint=hint)])
-    problems = [*_algorithm_problems(document, study), *objective_problems(graph, study)]
+    problems = [*_algorithm_problems(document, study), *_bound_problems(document), *objective_problems(graph, study)]
     for name, scenario in study.scenarios.items():
         place = f"study.scenarios.{name}.set"
         problems += change_problems(document, place, scenario.set, composed, overrides)
     if problems:
         raise DocumentError(problems)
     return study
+
+
+def _bound_problems(document: Document) -> Iterator[Problem]:
+    """Yield ends of the search that are not allowed where the parameter acts, at the first such place."""
+    uses = list(followers(document.experiment))
+    for dimension in Space.of(document).dimensions:
+        mine = [use for use in uses if use.parameter in (dimension.name, *dimension.also)]
+        for word, coordinate in (("lower", 0.0), ("upper", 1.0)):
+            text = dimension.text(coordinate)
+            refused = next((found for use in mine if (found := _refusal(use, text)) is not None), None)
+            if refused is not None:
+                message, place = f"its {word} end is not allowed at {refused}", f"study.tune.{dimension.name}"
+                yield document.problem("out-of-range", place, message, text, "write a 'range' that is")
+
+
+def _refusal(use: Follower, text: str) -> str | None:
+    """Return where a value is not allowed and why, or None where it is."""
+    try:
+        if use.unit is not None:
+            use.unit.parse(text)
+    except PydanticCustomError as error:
+        return f"{use.path}, which {error.message()}"
+    return None
 
 
 def _algorithm_problems(document: Document, study: Study) -> tuple[Problem, ...]:

@@ -20,6 +20,7 @@ LEG = {
         "start": {"value": "-50 mV"},
         "drive": {"value": 1},
         "gain": {"value": 0.5},
+        "rest": {"value": "5 deg"},
     },
     "network": {
         "neurons": {"cell": {"kind": "rybak_interneuron", "initial_potential": "${start}"}},
@@ -39,6 +40,7 @@ LEG = {
                 "position": ["0 m"] * 3,
                 "axis": [0, 1, 0],
                 "damping": "${damping}",
+                "rest_angle": "${rest}",
             }
         },
     },
@@ -75,6 +77,7 @@ def test_rewritten_and_lowered_anew_are_the_same_numbers(seed):
         ("mass", ["body.segments.leg.mass"]),
         ("start", ["network.neurons.cell.initial_potential"]),
         ("drive", ["protocol.events.more"]),
+        ("rest", ["body.joints.hip.rest_angle"]),
         ("damping", []),
         ("gain", []),
     ],
