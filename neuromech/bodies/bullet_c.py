@@ -12,7 +12,7 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any, Final
 
-from neuromech.bodies.bullet_client import BulletClient, BulletError, BulletJoint
+from neuromech.bodies.bullet_client import BulletBox, BulletClient, BulletError, BulletJoint
 
 _VERSION: Final = "3.2.7"
 _URDF_LOADED: Final = 6
@@ -46,6 +46,7 @@ _SIGNATURES: Final[dict[str, tuple[Any, ...]]] = {
     "b3CreateCollisionShapeCommandInit": (_P, _P),
     "b3CreateCollisionShapeAddPlane": (_I, _P, _P, _D),
     "b3CreateCollisionShapeAddBox": (_I, _P, _P),
+    "b3CreateCollisionShapeSetChildTransform": (None, _P, _I, _P, _P),
     "b3CreateMultiBodyCommandInit": (_P, _P),
     "b3CreateMultiBodyBase": (_I, _P, _D, _I, _I, _P, _P, _P, _P),
     "b3JointControlCommandInit2": (_P, _P, _I, _I),
@@ -177,13 +178,16 @@ class CClient(BulletClient):
         """Add a level plane."""
         command = self._b3.b3CreateCollisionShapeCommandInit(self.handle)
         self._b3.b3CreateCollisionShapeAddPlane(command, _numbers(0.0, 0.0, 1.0), 0.0)
-        return self._add(command, (0.0, 0.0, height), (0.0, 0.0, 0.0, 1.0))
+        return self._add(command, (0.0, 0.0, height))
 
-    def add_box(self, size: Sequence[float], position: Sequence[float], quaternion: Sequence[float]) -> int:
-        """Add a box."""
+    def add_boxes(self, boxes: Sequence[BulletBox]) -> int:
+        """Add boxes as one thing."""
         command = self._b3.b3CreateCollisionShapeCommandInit(self.handle)
-        self._b3.b3CreateCollisionShapeAddBox(command, _numbers(*(0.5 * side for side in size)))
-        return self._add(command, position, quaternion)
+        for box in boxes:
+            number = self._b3.b3CreateCollisionShapeAddBox(command, _numbers(*(0.5 * side for side in box.size)))
+            place, turned = _numbers(*box.position), _numbers(*box.quaternion)
+            self._b3.b3CreateCollisionShapeSetChildTransform(command, number, place, turned)
+        return self._add(command, (0.0, 0.0, 0.0))
 
     def stop_motors(self, robot: int, joints: Sequence[BulletJoint]) -> None:
         """Take away the force of the motors."""
@@ -243,12 +247,11 @@ class CClient(BulletClient):
             self._b3.b3DisconnectSharedMemory(self.handle)
             self.handle = 0
 
-    def _add(self, shape: int, position: Sequence[float], quaternion: Sequence[float]) -> int:
+    def _add(self, shape: int, position: Sequence[float]) -> int:
         number = self._b3.b3GetStatusCollisionShapeUniqueId(self._submit(shape))
         command = self._b3.b3CreateMultiBodyCommandInit(self.handle)
         nowhere, level = _numbers(0.0, 0.0, 0.0), _numbers(0.0, 0.0, 0.0, 1.0)
-        place, turned = _numbers(*position), _numbers(*quaternion)
-        self._b3.b3CreateMultiBodyBase(command, 0.0, number, -1, place, turned, nowhere, level)
+        self._b3.b3CreateMultiBodyBase(command, 0.0, number, -1, _numbers(*position), level, nowhere, level)
         return int(self._b3.b3GetStatusBodyIndex(self._submit(command)))
 
     def _submit(self, command: int) -> int:

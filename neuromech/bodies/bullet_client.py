@@ -4,6 +4,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Final
 
 
 class BulletError(Exception):
@@ -31,6 +32,19 @@ class BulletJoint:
     velocity: int
 
 
+@dataclass(frozen=True, slots=True)
+class BulletBox:
+    """A box: sides and centre in m, orientation as a unit quaternion x, y, z, w."""
+
+    size: Sequence[float]
+    position: Sequence[float]
+    quaternion: Sequence[float]
+
+
+MOST_BOXES: Final = 16
+"""Shapes that Bullet takes in one command."""
+
+
 class BulletClient(ABC):
     """A physics client with a world of its own. Links are counted from 0; −1 is the root link of a robot."""
 
@@ -55,8 +69,8 @@ class BulletClient(ABC):
         """Add a level plane at a height in m and return it."""
 
     @abstractmethod
-    def add_box(self, size: Sequence[float], position: Sequence[float], quaternion: Sequence[float]) -> int:
-        """Add a box that never moves, with sides and centre in m, and return it."""
+    def add_boxes(self, boxes: Sequence[BulletBox]) -> int:
+        """Add at most `MOST_BOXES` boxes that never move, as one thing, and return it."""
 
     @abstractmethod
     def stop_motors(self, robot: int, joints: Sequence[BulletJoint]) -> None:

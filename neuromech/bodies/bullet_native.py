@@ -74,7 +74,9 @@ _HEIGHT: Final = 16
 
 # b3ContactPointData, in bytes.
 _POINT_SIZE: Final = 176
+_THING: Final = 4
 _LINK: Final = 12
+_OTHER_LINK: Final = 16
 _NORMAL: Final = 72
 _NORMAL_FORCE: Final = 104
 _FRICTION: Final = (112, 120)
@@ -97,8 +99,8 @@ class BulletEngine(NamedTuple):
 
     Args:
         calls: addresses of Bullet's functions, in the order of `_CALLS`.
-        world: the client's handle, the numbers of robot and ground (−1 where it is not one piece), the kind of root,
-            and whether Bullet failed.
+        world: the client's handle, the numbers of robot and plane (−1 where the ground is something else), the kind
+            of root, and whether Bullet failed.
         positions: place of each joint among the robot's positions; those of a planar root follow.
         velocities: place of each joint among the robot's velocities; those of a planar root follow.
         rows: Bullet's link number -> row of the contact, −1 for other links.
@@ -161,7 +163,7 @@ def _engine(client: CClient, world: BulletWorld) -> BulletEngine:
     rows = np.full(max(world.contact_row, default=-1) + 1, -1, dtype=np.int64)
     for link, row in world.contact_row.items():
         rows[link] = row
-    ground = world.ground[0] if len(world.ground) == 1 else -1
+    ground = -1 if world.plane is None else world.plane
     kind = PLANAR if world.root else FREE if world.free else FIXED
     return BulletEngine(
         calls=np.array([client.address(name) for name in _CALLS], dtype=np.int64),
@@ -294,13 +296,24 @@ def _read_contacts(engine: BulletEngine, links: int, state: Floats, start: int) 
     if _clear(engine, links):
         return
     command = _of_client(calls[_REQUEST_CONTACTS], (world[CLIENT],))
-    _filter(calls[_FILTER_A], (command, world[ROBOT]))
-    _filter(calls[_FILTER_B], (command, world[GROUND]))
+    if world[GROUND] >= 0:
+        _filter(calls[_FILTER_A], (command, world[ROBOT]))
+        _filter(calls[_FILTER_B], (command, world[GROUND]))
     _answered(engine, command)
     _contacts(calls[_CONTACTS], (world[CLIENT], answer.ctypes.data))
     for number in range(load_int(answer.ctypes.data)):
         point = load_address(answer.ctypes.data + 8) + _POINT_SIZE * number
-        _add_force(point, state, start + 3 * engine.rows[load_int(point + _LINK)])
+        _add_contact(engine, point, state, start)
+
+
+@_exact
+def _add_contact(engine: BulletEngine, point: int, state: Floats, start: int) -> None:
+    # Bullet tells the force on the first thing of a couple, and the order of a couple with boxes is Bullet's choice.
+    # (Where it is asked for the robot as the first, it turns the normal round but not the friction.)
+    first = load_int(point + _THING) == engine.world[ROBOT]
+    link = load_int(point + (_LINK if first else _OTHER_LINK))
+    if 0 <= link < engine.rows.shape[0] and engine.rows[link] >= 0:
+        _add_force(point, 1.0 if first else -1.0, state, start + 3 * engine.rows[link])
 
 
 @_exact
@@ -314,9 +327,9 @@ def _clear(engine: BulletEngine, links: int) -> bool:
 
 
 @_exact
-def _add_force(point: int, state: Floats, start: int) -> None:
-    normal = load_double(point + _NORMAL_FORCE)
-    first, second = load_double(point + _FRICTION[0]), load_double(point + _FRICTION[1])
+def _add_force(point: int, sign: float, state: Floats, start: int) -> None:
+    normal = sign * load_double(point + _NORMAL_FORCE)
+    first, second = sign * load_double(point + _FRICTION[0]), sign * load_double(point + _FRICTION[1])
     for k in range(3):
         along = normal * load_double(point + _NORMAL + 8 * k)
         along += first * load_double(point + _FRICTION_DIRECTION[0] + 8 * k)

@@ -6,7 +6,7 @@ from math import cos, sin
 from pathlib import Path
 
 from neuromech.bodies.base import Floats
-from neuromech.bodies.bullet_client import BulletClient, BulletError, BulletJoint
+from neuromech.bodies.bullet_client import BulletBox, BulletClient, BulletError, BulletJoint
 from neuromech.bodies.pybullet_import import pybullet
 from neuromech.bodies.pybullet_world import BulletWorld, rotated
 from neuromech.compiler.body_state import BodyState
@@ -62,14 +62,17 @@ class PythonClient(BulletClient):
         plane: int = pybullet.createMultiBody(0.0, shape, basePosition=(0.0, 0.0, height), physicsClientId=self.number)
         return plane
 
-    def add_box(self, size: Sequence[float], position: Sequence[float], quaternion: Sequence[float]) -> int:
-        """Add a box."""
-        half = [0.5 * side for side in size]
-        shape = pybullet.createCollisionShape(pybullet.GEOM_BOX, halfExtents=half, physicsClientId=self.number)
-        box: int = pybullet.createMultiBody(
-            0.0, shape, basePosition=position, baseOrientation=quaternion, physicsClientId=self.number
+    def add_boxes(self, boxes: Sequence[BulletBox]) -> int:
+        """Add boxes as one thing."""
+        shape = pybullet.createCollisionShapeArray(
+            [pybullet.GEOM_BOX] * len(boxes),
+            halfExtents=[[0.5 * side for side in box.size] for box in boxes],
+            collisionFramePositions=[list(box.position) for box in boxes],
+            collisionFrameOrientations=[list(box.quaternion) for box in boxes],
+            physicsClientId=self.number,
         )
-        return box
+        thing: int = pybullet.createMultiBody(0.0, shape, physicsClientId=self.number)
+        return thing
 
     def stop_motors(self, robot: int, joints: Sequence[BulletJoint]) -> None:
         """Take away the force of the motors."""
@@ -201,14 +204,17 @@ class PythonMotion:
         forces = state[self._layout.contact_forces]
         forces[:] = 0.0
         world = self.world
-        if not world.ground or not world.contact_row:
-            return
-        only = world.ground if len(world.ground) == 1 else ()
-        for point in pybullet.getContactPoints(world.robot, *only, physicsClientId=self.client.number):
-            at = 3 * world.contact_row[point[3]]
+        only = () if world.plane is None else (world.robot, world.plane)
+        for point in pybullet.getContactPoints(*only, physicsClientId=self.client.number):
+            # As in `bullet_native`.
+            sign, link = (1.0, point[3]) if point[1] == world.robot else (-1.0, point[4])
+            if link not in world.contact_row:
+                continue
+            at = 3 * world.contact_row[link]
             normal, first, second = point[7], point[11], point[13]
             for k in range(3):
-                forces[at + k] += point[9] * normal[k] + point[10] * first[k] + point[12] * second[k]
+                along = sign * point[9] * normal[k] + sign * point[10] * first[k]
+                forces[at + k] += along + sign * point[12] * second[k]
 
 
 @contextmanager

@@ -4,8 +4,9 @@ Traps that this file exists for: the base pose is that of the centre of mass; li
 by default; joints are cut off at 100 rad/s; an impossible inertia is replaced by zero with a mere warning.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import groupby
 from math import cos, inf, sin
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -14,12 +15,12 @@ from typing import Final
 import numpy as np
 
 from neuromech.bodies.base import Floats, body_problem, root_quaternion
-from neuromech.bodies.bullet_client import BulletClient, BulletError, BulletJoint
+from neuromech.bodies.bullet_client import MOST_BOXES, BulletBox, BulletClient, BulletError, BulletJoint
 from neuromech.bodies.urdf import CONTACT, PLANAR_JOINTS, urdf_text
 from neuromech.errors import DocumentError
 from neuromech.graph.engines import refusals
 from neuromech.graph.model import BodyModel
-from neuromech.graph.terrain import Terrain, terrain
+from neuromech.graph.terrain import Box, Terrain, terrain
 from neuromech.spec.model import Contact
 
 Vector = tuple[float, float, float]
@@ -46,7 +47,7 @@ class BulletWorld:
 
     Args:
         robot: the body.
-        ground: its pieces.
+        plane: the ground where it is a plane, None where it is anything else.
         joints: in the body's order.
         root: the three joints of a planar root, empty for other roots.
         free: whether the root moves freely.
@@ -58,7 +59,7 @@ class BulletWorld:
     """
 
     robot: int
-    ground: list[int]
+    plane: int | None
     joints: list[BulletJoint]
     root: list[BulletJoint]
     free: bool
@@ -97,7 +98,7 @@ def build_world(client: BulletClient, body: BodyModel, step: float) -> BulletWor
     ground = None if body.world.ground is None else terrain(body.world.ground)
     return BulletWorld(
         robot=robot,
-        ground=_add_ground(client, ground),
+        plane=_add_ground(client, ground),
         joints=[named[name] for name in body.joints],
         root=[named[name] for name in PLANAR_JOINTS if name in named],
         free=body.root.kind == "free",
@@ -160,16 +161,24 @@ def _load(client: BulletClient, body: BodyModel) -> int:
         return client.load(file, fixed=body.root.kind != "free")
 
 
-def _add_ground(client: BulletClient, ground: Terrain | None) -> list[int]:
+def _add_ground(client: BulletClient, ground: Terrain | None) -> int | None:
+    """Add the ground and return the plane where it is nothing but a plane."""
     if ground is None:
-        return []
+        return None
     pieces = [] if ground.plane is None else [(client.add_plane(ground.plane[0]), ground.plane[1])]
-    for box in ground.boxes:
-        turned = (0.0, -sin(box.angle / 2), 0.0, cos(box.angle / 2))
-        pieces.append((client.add_box(box.size, box.center, turned), box.friction))
+    for some, friction in _alike(ground.boxes):
+        pieces.append((client.add_boxes(some), friction))
     for piece, friction in pieces:
         client.set_dynamics(piece, -1, {"lateralFriction": friction, "restitution": 0.0})
-    return [piece for piece, _ in pieces]
+    return pieces[0][0] if ground.plane is not None and not ground.boxes else None
+
+
+def _alike(boxes: Sequence[Box]) -> Iterator[tuple[list[BulletBox], float]]:
+    """Yield neighbouring boxes of one friction together: every thing by itself costs Bullet time at each step."""
+    for friction, some in groupby(boxes, key=lambda box: box.friction):
+        alike = [BulletBox(box.size, box.center, (0.0, -sin(box.angle / 2), 0.0, cos(box.angle / 2))) for box in some]
+        for first in range(0, len(alike), MOST_BOXES):
+            yield alike[first : first + MOST_BOXES], friction
 
 
 def _clear_heights(body: BodyModel, ground: Terrain | None) -> list[float]:

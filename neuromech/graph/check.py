@@ -43,7 +43,14 @@ from neuromech.graph.checks.signals import (
 )
 from neuromech.graph.checks.start import angle_starts_outside_range, start_below_ground, two_heights
 from neuromech.graph.checks.timing import delay_below_step
-from neuromech.graph.checks.world import ends_upside_down, hinge_engine_knows_no_ground, slope_misplaced, step_misplaced
+from neuromech.graph.checks.world import (
+    ends_upside_down,
+    hinge_engine_knows_no_ground,
+    slope_misplaced,
+    step_misplaced,
+    two_grounds,
+    wave_without_length,
+)
 from neuromech.graph.model import ModelGraph
 
 Rule = Callable[[ModelGraph], Iterable[Problem]]
@@ -57,6 +64,8 @@ VALUE_RULES: tuple[Rule, ...] = (
     ends_upside_down,
     slope_misplaced,
     step_misplaced,
+    two_grounds,
+    wave_without_length,
     one_distribution,
     push_after_the_end,
     series_that_never_advances,

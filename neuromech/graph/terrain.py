@@ -6,7 +6,8 @@ from itertools import pairwise
 from math import cos, sin, tan
 from typing import Any, Final
 
-from neuromech.spec.world import Ground
+from neuromech.spec.world import Ground, Slope
+from neuromech.units import Quantity
 
 # Where the ground ends that has slopes and is not told where, along x and y.
 FARTHEST: Final = ((-100.0, 1000.0), (-100.0, 100.0))
@@ -93,7 +94,7 @@ def terrain(ground: Ground) -> Terrain:
     parts = stretches(ground)
     width = ground.y or FARTHEST[1]
     steps = [_step(name, parts, ground) for name in ground.steps]
-    level = not ground.slopes and ground.x is None and ground.y is None
+    level = len(parts) == 1 and not parts[0].path and ground.x is None and ground.y is None
     boxes = [] if level else [_slab(part, width, number) for number, part in enumerate(parts)]
     corners = [(parts[0].start, parts[0].height), *((part.end, part.height_at(part.end)) for part in parts)]
     return Terrain(
@@ -105,11 +106,11 @@ def terrain(ground: Ground) -> Terrain:
 
 
 def stretches(ground: Ground) -> list[Stretch]:
-    """Return the slopes of the ground with the level ground around them, in order along x."""
+    """Return the slopes of the ground with the level ground around them, in order along x; waves must be drawn."""
     start, end = map(float, ground.x or FARTHEST[0])
     height = float(ground.height)
     found: list[Stretch] = []
-    for index, slope in enumerate(ground.slopes):
+    for index, slope in enumerate(all_slopes(ground)):
         first, last = float(slope.start), float(slope.start) + float(slope.length)
         if first - start > _TOUCHING:
             found.append(Stretch(start, first, height, 0.0, float(ground.friction)))
@@ -119,6 +120,22 @@ def stretches(ground: Ground) -> list[Stretch]:
     if end - start > _TOUCHING:
         found.append(Stretch(start, end, height, 0.0, float(ground.friction)))
     return found
+
+
+def all_slopes(ground: Ground) -> tuple[Slope, ...]:
+    """Return the slopes of the ground; those of an incline where it has one, of equal length and growing angle."""
+    incline = ground.incline
+    if incline is None:
+        return ground.slopes
+    length = float(incline.length) / incline.pieces
+    return tuple(
+        Slope(
+            start=Quantity(float(incline.start) + length * number),
+            length=Quantity(length),
+            angle=Quantity(float(incline.angle) * (number + 1) / incline.pieces),
+        )
+        for number in range(incline.pieces)
+    )
 
 
 def ground_height(x: float, y: float, corners: Sequence[Any], steps: Sequence[Any]) -> float:

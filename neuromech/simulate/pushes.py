@@ -63,9 +63,9 @@ def _series(series: PushSeries, random: np.random.Generator, last: float) -> Ite
         now += _time(series.interval, random)
         length = _time(series.duration, random)
         force = growth * random.normal(float(series.force), float(series.deviation))
-        angle = _length_or_angle(series.angle, random)
-        heading = 0.0 if series.heading is None else _length_or_angle(series.heading, random)
-        height = _length_or_angle(series.height, random)
+        angle = length_or_angle(series.angle, random)
+        heading = 0.0 if series.heading is None else length_or_angle(series.heading, random)
+        height = length_or_angle(series.height, random)
         if now >= last:
             return
         flat = force * cos(angle)
@@ -84,7 +84,8 @@ def _time(time: RandomTime, random: np.random.Generator) -> float:
     raise ValueError("a random time without a distribution")
 
 
-def _length_or_angle(value: RandomLength | RandomAngle, random: np.random.Generator) -> float:
+def length_or_angle(value: RandomLength | RandomAngle, random: np.random.Generator) -> float:
+    """Draw a length in m or an angle in rad."""
     if value.uniform is not None:
         return float(random.uniform(*value.uniform))
     if value.normal is not None:

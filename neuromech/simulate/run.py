@@ -57,6 +57,7 @@ class _Run:
     progress: Progress | None
     checkpoint: Checkpoint | None
     pushes: Pushes
+    surface: Surface
     engine: str = "none"
     done: int = 0
     started: float = field(default_factory=time.perf_counter)
@@ -123,7 +124,9 @@ def simulate(
     memory = program.memory()
     memory.x[:] = initial_states(program, used_seed)
     pushes = NO_PUSHES if body is None else drawn_pushes(program, body, used_seed, ticks * program.tick)
-    run = _Run(program, memory, Recorder(program, memory.I, ticks), ticks, used_seed, progress, checkpoint, pushes)
+    surface = Surface.of(None if body is None else body.world.ground)
+    recorder = Recorder(program, memory.I, ticks)
+    run = _Run(program, memory, recorder, ticks, used_seed, progress, checkpoint, pushes, surface)
     return run.recording(_with_body(run, body) if body is not None else _ended(run, _network))
 
 
@@ -207,8 +210,7 @@ def _body_loop(run: _Run, body: Body) -> Outcome | None:
 
 
 def _fall_rule(run: _Run, body: Body) -> FallRule:
-    experiment = run.program.graph.document.experiment
-    return FallRule.of(experiment.protocol.fall, body.layout, Surface.of(experiment.world.ground))
+    return FallRule.of(run.program.graph.document.experiment.protocol.fall, body.layout, run.surface)
 
 
 def _body_state(run: _Run, body: Body) -> Floats:

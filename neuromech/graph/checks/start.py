@@ -7,7 +7,7 @@ from math import degrees
 from pydantic_core import PydanticCustomError
 
 from neuromech.errors import Problem
-from neuromech.graph.checks.world import ends_upside_down, slope_misplaced, step_misplaced
+from neuromech.graph.checks.world import ends_upside_down, slope_misplaced, step_misplaced, two_grounds
 from neuromech.graph.model import BodyModel, ModelGraph
 from neuromech.graph.pose import clearances, sunk
 from neuromech.graph.signals import matching
@@ -47,7 +47,7 @@ def start_below_ground(graph: ModelGraph) -> Iterator[Problem]:
     body = graph.body
     if body is None or body.engine == "hinge" or any(not any(joint.axis) for joint in body.joints.values()):
         return
-    if any(chain(ends_upside_down(graph), slope_misplaced(graph), step_misplaced(graph))):
+    if any(chain(ends_upside_down(graph), slope_misplaced(graph), step_misplaced(graph), two_grounds(graph))):
         return
     found = sunk(_lowest(body, _start(graph)))
     if found is None:

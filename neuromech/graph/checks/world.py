@@ -5,7 +5,8 @@ from collections.abc import Iterator
 from neuromech.errors import Problem
 from neuromech.graph.model import ModelGraph
 from neuromech.graph.terrain import FARTHEST, overlaps, stretch_below, stretches
-from neuromech.spec.world import Ground, Step
+from neuromech.spec.pushes import RandomLength
+from neuromech.spec.world import Ground, Incline, Slope, Step
 
 _ROUNDING = 1e-9
 
@@ -30,13 +31,18 @@ def slope_misplaced(graph: ModelGraph) -> Iterator[Problem]:
         hint = "list the slopes in order along x, each from where the one before it ends or later"
         yield graph.document.problem("overlapping-slopes", f"world.ground.slopes.{index}.start", message, got, hint)
     low, high = ground.x or FARTHEST[0]
-    for index, slope in enumerate(ground.slopes):
+    named: list[tuple[str, Slope | Incline]] = [(f"slopes.{index}", one) for index, one in enumerate(ground.slopes)]
+    named += [] if ground.incline is None else [("incline", ground.incline)]
+    for field, slope in named:
         ends = (float(slope.start), float(slope.start) + float(slope.length))
         if ends[0] < low - _ROUNDING or ends[1] > high + _ROUNDING:
             message = f"is outside the ground, which reaches from {low:g} m to {high:g} m"
             hint = "let the ground reach farther with 'x'"
-            path = f"world.ground.slopes.{index}"
-            yield graph.document.problem("outside-ground", path, message, _interval(ends), hint)
+            yield graph.document.problem("outside-ground", f"world.ground.{field}", message, _interval(ends), hint)
+    if ground.waves is not None and not low <= ground.waves.start < high:
+        message = f"is outside the ground, which reaches from {low:g} m to {high:g} m"
+        got = f"{float(ground.waves.start):g} m"
+        yield graph.document.problem("outside-ground", "world.ground.waves.start", message, got)
 
 
 def step_misplaced(graph: ModelGraph) -> Iterator[Problem]:
@@ -44,7 +50,7 @@ def step_misplaced(graph: ModelGraph) -> Iterator[Problem]:
     ground = graph.document.experiment.world.ground
     if ground is None or not _sound(ground):
         return
-    parts = None if any(overlaps(ground)) else stretches(ground)
+    parts = None if any(overlaps(ground)) or ground.incline is not None else stretches(ground)
     for name, step in ground.steps.items():
         path = f"world.ground.steps.{name}"
         for axis, ends in _footprint(step).items():
@@ -61,12 +67,49 @@ def step_misplaced(graph: ModelGraph) -> Iterator[Problem]:
                 yield graph.document.problem("step-between-slopes", path, message, got, hint)
 
 
+def two_grounds(graph: ModelGraph) -> Iterator[Problem]:
+    """Slopes, an incline and waves exclude each other; steps stand before an incline or waves."""
+    ground = graph.document.experiment.world.ground
+    if ground is None:
+        return
+    kinds = [kind for kind in ("slopes", "incline", "waves") if getattr(ground, kind)]
+    for kind in kinds[1:]:
+        message = f"stands beside '{kinds[0]}'"
+        yield graph.document.problem("two-ways", f"world.ground.{kind}", message, hint="keep one of the two")
+    for kind, random in (("incline", ground.incline), ("waves", ground.waves)):
+        for name, step in ground.steps.items():
+            if random is not None and _footprint(step)["x"][1] > random.start + _ROUNDING:
+                path, message = f"world.ground.steps.{name}", f"reaches over the beginning of '{kind}'"
+                got = f"x {_interval(_footprint(step)['x'])}"
+                yield graph.document.problem("step-between-slopes", path, message, got, f"end it before '{kind}'")
+
+
+def wave_without_length(graph: ModelGraph) -> Iterator[Problem]:
+    """Lengths and spaces of waves have one distribution, which gives positive lengths."""
+    ground = graph.document.experiment.world.ground
+    if ground is None or ground.waves is None:
+        return
+    for field in ("length", "space"):
+        value: RandomLength = getattr(ground.waves, field)
+        path = f"world.ground.waves.{field}"
+        given = [kind for kind in ("uniform", "normal") if getattr(value, kind) is not None]
+        if len(given) != 1:
+            got, hint = " and ".join(given) or "none", "give one of uniform, normal"
+            yield graph.document.problem("one-distribution", path, "needs one distribution", got, hint)
+        elif value.uniform is not None and not 0.0 < value.uniform[0] <= value.uniform[1]:
+            message = "must be positive, its lowest value first and its highest second"
+            yield graph.document.problem("one-distribution", f"{path}.uniform", message, _interval(value.uniform))
+        elif value.normal is not None and not value.normal[0] > 0.0:
+            message, got = "must have a positive mean", f"{float(value.normal[0]):g} m"
+            yield graph.document.problem("one-distribution", f"{path}.normal", message, got)
+
+
 def hinge_engine_knows_no_ground(graph: ModelGraph) -> Iterator[Problem]:
     """The engine `hinge` has nothing that could stand on slopes or steps."""
     ground = graph.document.experiment.world.ground
     if graph.body is None or graph.body.engine != "hinge" or ground is None:
         return
-    for field in ("slopes", "steps"):
+    for field in ("slopes", "incline", "waves", "steps"):
         if getattr(ground, field):
             hint = "use engine 'pybullet' or 'mujoco'"
             message = f"engine 'hinge' knows no {field}"
@@ -81,7 +124,7 @@ def _given_ends(ground: Ground | None) -> dict[str, tuple[float, float]]:
 def _ends(ground: Ground, axis: str) -> tuple[float, float] | None:
     """Return where the ground ends along an axis, None where it does not."""
     given = _given_ends(ground)
-    if axis in given or not (given or ground.slopes):
+    if axis in given or not (given or ground.slopes or ground.incline or ground.waves):
         return given.get(axis)
     return FARTHEST[0] if axis == "x" else FARTHEST[1]
 
