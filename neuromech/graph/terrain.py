@@ -10,7 +10,7 @@ from neuromech.spec.world import Ground, Slope
 from neuromech.units import Quantity
 
 # Where the ground ends that has slopes and is not told where, along x and y.
-FARTHEST: Final = ((-100.0, 1000.0), (-100.0, 100.0))
+FARTHEST: Final = ((-100.0, 1000.0), (-10.0, 10.0))
 _THICKNESS: Final = 1.0
 # How far steps reach into the ground, so that a foot that sinks into one is pushed up.
 _DEPTH: Final = 0.1

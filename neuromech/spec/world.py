@@ -75,7 +75,7 @@ class Ground(SpecModel):
     ] = None
     y: Annotated[
         tuple[Length, Length] | None,
-        Field(description="where it begins and ends; without end where not given, with slopes from -100 m to 100 m"),
+        Field(description="where it begins and ends; without end where not given, with slopes from -10 m to 10 m"),
     ] = None
     slopes: Annotated[tuple[Slope, ...], Field(description="in order along x")] = ()
     incline: Annotated[Incline | None, Field(description="in place of slopes")] = None
