@@ -5,11 +5,15 @@ BIN := $(VENV)/bin
 LOWEST := .venv-lowest
 PEERS := .venv-bench
 
-.PHONY: walk test check verify gallery bench test-lowest clean
+.PHONY: walk human test check verify gallery bench test-lowest clean
 
 walk: $(VENV)/.installed  ## validate and run the suspended cat: figures, results, claims (met or not)
 	$(BIN)/neuromech validate specs
 	$(BIN)/neuromech run specs/cat/suspended.yaml --out results/suspended || test $$? -eq 4
+
+human: $(VENV)/.installed  ## the planar human walks on reflexes: figures, results, claims (met or not)
+	$(BIN)/python -m pip install --quiet --editable '.[mujoco]'
+	$(BIN)/neuromech run specs/human/walk.yaml --out results/human || test $$? -eq 4
 
 test: $(VENV)/.developed  ## the whole fast test-suite
 	$(BIN)/python -m pytest
