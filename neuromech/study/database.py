@@ -8,7 +8,7 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
-from optuna.exceptions import DuplicatedStudyError
+from optuna.exceptions import DuplicatedStudyError, StorageInternalError
 from optuna.logging import WARNING, set_verbosity
 from optuna.storages import RDBStorage
 from optuna.study import StudyDirection
@@ -42,7 +42,7 @@ class Database:
 
         Args:
             place: a SQLite file, or a URL like `sqlite:///study.db` or `postgresql://user@host/database`.
-            create: whether the file and the tables are made where there are none.
+            create: whether the file and its tables are made where there are none.
 
         Raises:
             StudyError: this is no URL, no server answers there, or the database is none of Optuna's.
@@ -53,7 +53,8 @@ class Database:
         if self._is_file and not (create or Path(self._url.database or "").is_file()):
             raise StudyError(f"{self.shown}: there is no such file. Hint: give the storage of 'neuromech optimize'")
         with _connecting(self.shown):
-            self._storage = RDBStorage(self._url.render_as_string(hide_password=False), self._engine_arguments())
+            url = self._url.render_as_string(hide_password=False)
+            self._storage = RDBStorage(url, self._engine_arguments(), skip_table_creation=not create)
 
     @property
     def shown(self) -> str:
@@ -141,7 +142,7 @@ def _connecting(shown: str) -> Iterator[None]:
         yield
     except ImportError as error:
         raise MissingExtraError("psycopg", "postgresql") from error
-    except (SQLAlchemyError, sqlite3.Error) as error:
+    except (SQLAlchemyError, StorageInternalError, sqlite3.Error) as error:
         server = "start the server, or leave out '--storage' to use a file"
         hint = server if "://" in shown else "give another file"
         raise StudyError(f"no database can be used at {shown}: {reason(error)}. Hint: {hint}") from error

@@ -1,0 +1,131 @@
+"""What a study costs: evaluations per hour of the suspended cat, its storage, and Dask.
+
+python tests/benchmarks/studies.py [cat] [dask] [threads]
+"""
+
+import statistics
+import sys
+import tempfile
+import time
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from typing import Any
+
+from distributed import LocalCluster
+
+from neuromech.study.dask_executor import DaskExecutor
+from neuromech.study.database import Database
+from neuromech.study.driver import Search
+from neuromech.study.evaluate import Evaluator
+from neuromech.study.evaluation import Job
+from neuromech.study.executors import Executor, ProcessExecutor
+from neuromech.study.plan import Plan
+from neuromech.study.storage import StoredStudy
+
+SPEC = Path(__file__).parents[2] / "specs" / "cat" / "suspended_tuning.yaml"
+ENGINES = ("pybullet", "mujoco")
+REPETITIONS = 3
+EVALUATIONS = 48
+JOBS = 40
+JOB_SECONDS = 1.0
+
+
+class Costs:
+    """Seconds of processor time that storing took, counted while it is patched in."""
+
+    def __init__(self) -> None:
+        self.seconds = 0.0
+        for name in ("begin", "finish", "set_boundary"):
+            setattr(StoredStudy, name, self._counted(getattr(StoredStudy, name)))
+
+    def _counted(self, write: Callable[..., None]) -> Callable[..., None]:
+        def counted(*arguments: Any) -> None:
+            before = time.thread_time()
+            write(*arguments)
+            self.seconds += time.thread_time() - before
+
+        return counted
+
+
+def say(text: str) -> None:
+    """Write a line at once."""
+    sys.stdout.write(f"{text}\n")
+    sys.stdout.flush()
+
+
+def searched(evaluator: Evaluator, executor: Executor) -> float:
+    """Return the seconds that a search takes, without starting processes and loading code."""
+    plan = Plan.of(evaluator.document)
+    warm = [Job(n, 0, n, tuple(plan.space.point(plan.document)), plan.scenarios.seeds(0)) for n in range(4)]
+    list(executor.run(evaluator, warm, lambda: False))
+    with tempfile.TemporaryDirectory() as folder:
+        stored = Database(f"{folder}/study.db").create("study", plan.header)
+        search = Search(plan, stored, lambda standing: None)
+        started = time.perf_counter()
+        search.run(executor, evaluator, lambda: False)
+        return time.perf_counter() - started
+
+
+def cat(costs: Costs) -> None:
+    """Measure one and two workers in turn, in both engines."""
+    for engine in ENGINES:
+        evaluator = Evaluator(SPEC, [f"study.evaluations={EVALUATIONS}"], engine=engine)
+        evaluator.prepare()
+        rates: dict[int, list[float]] = {1: [], 2: []}
+        shares = []
+        with ProcessExecutor(1) as one, ProcessExecutor(2) as two:
+            for _ in range(REPETITIONS):
+                for executor in (one, two):
+                    before = costs.seconds
+                    seconds = searched(evaluator, executor)
+                    rates[executor.workers].append(EVALUATIONS * 3600 / seconds)
+                    shares.append((costs.seconds - before) / (seconds * executor.workers))
+        ratios = [two / one for one, two in zip(rates[1], rates[2], strict=True)]
+        words = ", ".join(f"{workers} workers {statistics.median(rate):.0f}/h" for workers, rate in rates.items())
+        spread = f"{min(ratios):.2f} – {max(ratios):.2f}"
+        say(f"{engine}: {words}, ratio {statistics.median(ratios):.2f} ({spread}), storage {max(shares):.2%} at most")
+
+
+def threads() -> None:
+    """Measure evaluations in one and two threads of one process."""
+    evaluator = Evaluator(SPEC, engine="mujoco")
+    evaluator.prepare()
+    plan = Plan.of(evaluator.document)
+    jobs = [Job(n, 0, n, tuple(plan.space.point(plan.document)), plan.scenarios.seeds(0)) for n in range(EVALUATIONS)]
+    for workers in (1, 2):
+        with ThreadPoolExecutor(workers) as pool:
+            started = time.perf_counter()
+            list(pool.map(evaluator, jobs))
+            say(f"mujoco: {workers} threads {EVALUATIONS * 3600 / (time.perf_counter() - started):.0f}/h")
+
+
+def dask() -> None:
+    """Measure jobs of a second on two workers, against processes and against nothing but the jobs."""
+    with LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster:
+        places: dict[str, Callable[[], Executor]] = {
+            "processes": lambda: ProcessExecutor(2),
+            "Dask": lambda: DaskExecutor(cluster.scheduler_address),
+        }
+        for name, place in places.items():
+            with place() as executor:
+                list(executor.run(time.sleep, [0.0] * 4, lambda: False))
+                started = time.perf_counter()
+                list(executor.run(time.sleep, [JOB_SECONDS] * JOBS, lambda: False))
+                seconds = time.perf_counter() - started
+                say(f"{name}: {seconds / (JOBS * JOB_SECONDS / 2) - 1:.2%} more than the jobs themselves")
+
+
+def main() -> None:
+    """Measure what is asked for, or all."""
+    asked = sys.argv[1:] or ["cat", "threads", "dask"]
+    if "cat" in asked:
+        cat(Costs())
+    if "threads" in asked:
+        threads()
+    if "dask" in asked:
+        dask()
+
+
+if __name__ == "__main__":
+    main()
