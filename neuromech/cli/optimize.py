@@ -14,6 +14,7 @@ from neuromech.errors import StudyError
 from neuromech.pipeline import load_document
 from neuromech.report.convergence import convergence_figure
 from neuromech.report.layout import save, style
+from neuromech.spec.document import Document
 from neuromech.study.database import Database
 from neuromech.study.driver import Search
 from neuromech.study.evaluate import Evaluator
@@ -76,22 +77,22 @@ def optimize(request: Request) -> int:
         OSError: a file cannot be written.
     """
     check_executor(request.workers, request.dask)
-    opened = _open(request)
-    with search_progress(opened.plan.header.stages, shown=not request.quiet) as report:
-        search = Search(opened.plan, opened.stored, report)
-        ending = "complete" if search.is_complete else _searched(request, opened, search)
+    written = load_document(request.spec)
+    name = request.name or written.experiment.name
+    with Database(request.storage or _own_file(name)) as database:
+        opened = _open(request, written, name, database)
+        with search_progress(opened.plan.header.stages, shown=not request.quiet) as report:
+            search = Search(opened.plan, opened.stored, report)
+            ending = "complete" if search.is_complete else _searched(request, opened, search)
     _conclude(request, opened, search)
-    done, total = len(search.evaluations), opened.plan.evaluations
     if ending == "complete":
         return FINISHED
-    note(f"stopped after {done} of {total} evaluations, all of them stored; to go on: {request.command()}")
+    done = f"{len(search.evaluations)} of {opened.plan.evaluations} evaluations"
+    note(f"stopped after {done}, all of them stored; to go on: {request.command()}")
     return ENDED_EARLY
 
 
-def _open(request: Request) -> _Opened:
-    written = load_document(request.spec)
-    name = request.name or written.experiment.name
-    database = Database(request.storage or _own_file(name))
+def _open(request: Request, written: Document, name: str, database: Database) -> _Opened:
     stored = database.open(name) if request.resume and name in database.names() else None
     seed = request.seed if stored is None or request.seed is not None else stored.header.seed
     changes = {"study.seed": seed, "study.evaluations": request.evaluations}
@@ -127,9 +128,12 @@ def _compare(name: str, stored: StoredStudy, plan: Plan) -> None:
 
 
 def _searched(request: Request, opened: _Opened, search: Search) -> str:
-    with stop_on_signals(_stopping) as stop, open_executor(request.workers, request.dask) as executor:
-        executor.prepare(opened.evaluator.prepare)
-        return search.run(executor, opened.evaluator, stop)
+    try:
+        with stop_on_signals(_stopping) as stop, open_executor(request.workers, request.dask) as executor:
+            executor.prepare(opened.evaluator.prepare)
+            return search.run(executor, opened.evaluator, stop)
+    except KeyboardInterrupt:
+        return "dropped"
 
 
 def _stopping() -> None:

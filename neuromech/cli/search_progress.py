@@ -1,6 +1,6 @@
 """The progress of a search: a live line in a terminal, a line for each generation elsewhere."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from datetime import timedelta
 
@@ -18,7 +18,9 @@ def search_progress(stages: Sequence[str], shown: bool) -> Iterator[Report]:
     if not shown:
         yield lambda standing: None
     elif not notes().is_terminal:
-        yield _plain(stages)
+        lines = _Lines(stages)
+        yield lines
+        lines.end()
     else:
         with Progress(BarColumn(20), TextColumn("{task.description}", markup=False), console=notes()) as progress:
             task = progress.add_task("preparing", total=None)
@@ -43,13 +45,24 @@ def standing_text(standing: Standing, stages: Sequence[str]) -> str:
     return ", ".join(parts)
 
 
-def _plain(stages: Sequence[str]) -> Callable[[Standing], None]:
-    generation = -1
+class _Lines:
+    """Writes a line at the end of each generation, and one at the end."""
 
-    def report(standing: Standing) -> None:
-        nonlocal generation
-        if generation >= 0 and (standing.generation > generation or standing.done == standing.total):
-            note(standing_text(standing, stages))
-        generation = standing.generation
+    def __init__(self, stages: Sequence[str]) -> None:
+        self._stages = stages
+        self._latest: Standing | None = None
+        self._told: Standing | None = None
 
-    return report
+    def __call__(self, standing: Standing) -> None:
+        if self._latest is not None and standing.generation > self._latest.generation:
+            self._tell(standing)
+        self._latest = standing
+
+    def end(self) -> None:
+        """Tell what was not told yet."""
+        if self._latest is not None and self._latest is not self._told:
+            self._tell(self._latest)
+
+    def _tell(self, standing: Standing) -> None:
+        note(standing_text(standing, self._stages))
+        self._told = standing

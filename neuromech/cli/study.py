@@ -19,7 +19,6 @@ from neuromech.study.evaluation import Evaluation
 from neuromech.study.export import export as write_table
 from neuromech.study.header import Header
 from neuromech.study.history import Generation, best_of, failures, generations
-from neuromech.study.storage import StoredStudy
 
 SHOWN_GENERATIONS = 20
 SHOWN_NUMBERS = 8
@@ -31,14 +30,13 @@ def show(place: str, name: str | None, as_json: bool, figure: Path | None) -> in
     Raises:
         StudyError: there is no such study, or no format for the figure.
     """
-    name, stored = _study(place, name)
-    evaluations = stored.evaluations()
+    name, header, evaluations = _study(place, name)
     if as_json:
-        write_json(as_dict(name, stored.header, evaluations))
+        write_json(as_dict(name, header, evaluations))
     else:
-        _show(name, stored.header, evaluations)
+        _show(name, header, evaluations)
     if figure is not None:
-        _draw(name, stored.header, evaluations, figure)
+        _draw(name, header, evaluations, figure)
     return FINISHED
 
 
@@ -48,14 +46,14 @@ def best(place: str, name: str | None, as_json: bool) -> int:
     Raises:
         StudyError: there is no such study, or it has no candidate with a score.
     """
-    name, stored = _study(place, name)
-    found = best_of(stored.evaluations())
+    name, header, evaluations = _study(place, name)
+    found = best_of(evaluations)
     if found is None:
         raise StudyError(f"study '{name}' has no candidate with a score yet")
     if as_json:
         write_json(found.to_dict())
         return FINISHED
-    write_line(f"evaluation {found.number}, score {score_text(found.score, stored.header.stages)}")
+    write_line(f"evaluation {found.number}, score {score_text(found.score, header.stages)}")
     results().print(_parameters(found))
     results().print(_measures(found))
     return FINISHED
@@ -69,8 +67,8 @@ def export(place: str, file: Path, name: str | None) -> int:
         MissingExtraError: the library for this format is not installed.
         OSError: the file cannot be written.
     """
-    _, stored = _study(place, name)
-    write_table(stored.header, stored.evaluations(), file)
+    _, header, evaluations = _study(place, name)
+    write_table(header, evaluations, file)
     note(f"wrote {file}")
     return FINISHED
 
@@ -90,15 +88,21 @@ def as_dict(name: str, header: Header, evaluations: Sequence[Evaluation]) -> dic
     }
 
 
-def _study(place: str, name: str | None) -> tuple[str, StoredStudy]:
-    database = Database(place, create=False)
-    names = database.names()
-    if name is None and len(names) != 1:
-        held = ", ".join(f"'{one}'" for one in names)
-        said = f"several studies: {held}. Hint: choose one with --name" if names else "no study"
-        raise StudyError(f"{database.shown} holds {said}")
-    chosen = name or names[0]
-    return chosen, database.open(chosen)
+def _study(place: str, name: str | None) -> tuple[str, Header, list[Evaluation]]:
+    """Return name, header and complete evaluations of a study.
+
+    Raises:
+        StudyError: there is no such study, or several and no name.
+    """
+    with Database(place, create=False) as database:
+        names = database.names()
+        if name is None and len(names) != 1:
+            held = ", ".join(f"'{one}'" for one in names)
+            said = f"several studies: {held}. Hint: choose one with --name" if names else "no study"
+            raise StudyError(f"{database.shown} holds {said}")
+        chosen = name or names[0]
+        stored = database.open(chosen)
+        return chosen, stored.header, stored.evaluations()
 
 
 def _show(name: str, header: Header, evaluations: Sequence[Evaluation]) -> None:

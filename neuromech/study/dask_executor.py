@@ -8,7 +8,8 @@ from typing import Any
 from distributed import Client, KilledWorker
 
 from neuromech.errors import StudyError
-from neuromech.study.executors import Executor, call
+from neuromech.study.executors import Executor
+from neuromech.study.tasks import Packed, call
 
 CONNECTION_SECONDS = 10.0
 QUEUE = 2
@@ -63,8 +64,8 @@ class DaskExecutor(Executor):
     def _slots(self) -> int:
         return QUEUE * max(1, self.workers)
 
-    def _submit(self, pickled: bytes, job: Any) -> Future[Any]:
-        future: Future[Any] = self._pool.submit(call, pickled, job)
+    def _submit(self, packed: Packed, job: Any) -> Future[Any]:
+        future: Future[Any] = self._pool.submit(call, packed, job)
         return future
 
     def _release(self, future: Future[Any]) -> bool:

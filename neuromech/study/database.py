@@ -5,8 +5,8 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
-from types import MappingProxyType
-from typing import Any
+from types import MappingProxyType, TracebackType
+from typing import Any, Self
 
 from optuna.exceptions import DuplicatedStudyError, StorageInternalError
 from optuna.logging import WARNING, set_verbosity
@@ -35,7 +35,7 @@ _PLACES = "Hint: give a file, or postgresql://USER@HOST/DATABASE"
 
 
 class Database:
-    """The studies in one database."""
+    """The studies in one database; its connections are closed at the end of a `with` block."""
 
     def __init__(self, place: str, create: bool = True) -> None:
         """Connect.
@@ -56,10 +56,19 @@ class Database:
             url = self._url.render_as_string(hide_password=False)
             self._storage = RDBStorage(url, self._engine_arguments(), skip_table_creation=not create)
 
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
+    ) -> None:
+        self._storage.engine.dispose()
+
     @property
     def shown(self) -> str:
         """The file, or the URL without its password."""
-        return (self._url.database or "") if self._is_file else self._url.render_as_string()
+        url = self._url.set(drivername=self._url.get_backend_name())
+        return (url.database or "") if self._is_file else url.render_as_string()
 
     def names(self) -> list[str]:
         """Return the names of our studies, oldest first.

@@ -7,7 +7,6 @@ what is costly to make. The processes share what the task keeps on disk, such as
 import contextlib
 import itertools
 import os
-import pickle
 import signal
 import threading
 import time
@@ -16,12 +15,12 @@ from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass
-from functools import lru_cache
 from multiprocessing import get_context, parent_process
 from types import TracebackType
 from typing import Any, Generic, Self, TypeVar
 
 from neuromech.errors import NeuromechError
+from neuromech.study.tasks import Packed, call
 
 Job = TypeVar("Job")
 Result = TypeVar("Result")
@@ -65,10 +64,10 @@ class Executor(ABC):
         Raises:
             NeuromechError, ImportError, OSError: what the task raised, where it is not about a single job.
         """
-        pickled = pickle.dumps(task)
+        packed = Packed.of(task)
         waiting: Iterator[tuple[Job, int]] = ((job, 0) for job in jobs)
         running: dict[Future[Any], _Try] = {}
-        self._fill(running, waiting, pickled, stop)
+        self._fill(running, waiting, packed, stop)
         while running:
             for future in wait(running, return_when=FIRST_COMPLETED).done:
                 one = running.pop(future)
@@ -76,18 +75,18 @@ class Executor(ABC):
                 if found is None:
                     waiting = itertools.chain([(one.job, one.number + 1)], waiting)
                 # Before the result is looked at, so that nobody waits meanwhile.
-                self._fill(running, waiting, pickled, stop)
+                self._fill(running, waiting, packed, stop)
                 if found is not None:
                     yield found
 
     def _fill(
-        self, running: dict[Future[Any], "_Try"], waiting: Iterator[tuple[Any, int]], pickled: bytes, stop: Stop
+        self, running: dict[Future[Any], "_Try"], waiting: Iterator[tuple[Any, int]], packed: Packed, stop: Stop
     ) -> None:
         while len(running) < self._slots() and not stop():
             job, number = next(waiting, (None, 0))
             if job is None:
                 return
-            running[self._submit(pickled, job)] = _Try(job, number, time.perf_counter())
+            running[self._submit(packed, job)] = _Try(job, number, time.perf_counter())
 
     def _found(self, one: "_Try", future: Future[Any]) -> Done[Any, Any] | None:
         """Return what became of a job, None where it has to be tried again."""
@@ -100,7 +99,7 @@ class Executor(ABC):
         """Return how many jobs are handed out at a time."""
 
     @abstractmethod
-    def _submit(self, pickled: bytes, job: Any) -> Future[Any]:
+    def _submit(self, packed: Packed, job: Any) -> Future[Any]:
         """Hand out one job."""
 
     @abstractmethod
@@ -123,18 +122,6 @@ class Executor(ABC):
 def available_cores() -> int:
     """Return how many cores this process may use."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-
-
-@lru_cache(maxsize=4)
-def _task(pickled: bytes) -> Callable[[Any], Any]:
-    """Return a task, the same object for the same bytes."""
-    found: Callable[[Any], Any] = pickle.loads(pickled)
-    return found
-
-
-def call(pickled: bytes, job: Any) -> Any:
-    """Call a pickled task with a job, in the process that works."""
-    return _task(pickled)(job)
 
 
 @dataclass(frozen=True, slots=True)
@@ -200,14 +187,14 @@ class ProcessExecutor(Executor):
     def _slots(self) -> int:
         return self._workers
 
-    def _submit(self, pickled: bytes, job: Any) -> Future[Any]:
+    def _submit(self, packed: Packed, job: Any) -> Future[Any]:
         process = self._free.pop()
         try:
-            future = process.pool.submit(call, pickled, job)
+            future = process.pool.submit(call, packed, job)
         except BrokenProcessPool:
             # It died while it had nothing to do.
             process = _Process()
-            future = process.pool.submit(call, pickled, job)
+            future = process.pool.submit(call, packed, job)
         self._busy[future] = process
         return future
 

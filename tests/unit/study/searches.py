@@ -11,11 +11,12 @@ import numpy as np
 from neuromech.pipeline import load_document
 from neuromech.study.driver import Search
 from neuromech.study.evaluation import Evaluation, Job, RunResult
-from neuromech.study.executors import Executor, call
+from neuromech.study.executors import Executor
 from neuromech.study.plan import Plan
 from neuromech.study.score import Score
 from neuromech.study.space import Space
 from neuromech.study.storage import StoredStudy
+from neuromech.study.tasks import Packed, call
 
 DOCUMENT = """
 neuromech: 1
@@ -99,10 +100,10 @@ class Inline(Executor):
     def _slots(self) -> int:
         return self._workers
 
-    def _submit(self, pickled: bytes, job: Any) -> Future[Any]:
+    def _submit(self, packed: Packed, job: Any) -> Future[Any]:
         future: Future[Any] = Future()
         try:
-            future.set_result(call(pickled, job))
+            future.set_result(call(packed, job))
         except ZeroDivisionError as error:
             future.set_exception(error)
         return future

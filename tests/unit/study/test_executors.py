@@ -6,6 +6,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -13,6 +14,7 @@ import pytest
 from neuromech.errors import StudyError
 from neuromech.study.dask_executor import DaskExecutor
 from neuromech.study.executors import Done, Executor, ProcessExecutor
+from neuromech.study.tasks import Packed, call
 
 PROC = Path("/proc")
 
@@ -146,6 +148,13 @@ def test_processes_do_not_outlive_a_killed_parent(tmp_path: Path):
         wait_for(notes.exists)
         parent.send_signal(signal.SIGKILL)
     wait_for(lambda: not any(map(is_alive, Square(notes).pids())))
+
+
+def test_a_worker_with_other_packages_is_refused():
+    packed = Packed.of(abs)
+    assert call(packed, -3) == 3
+    with pytest.raises(StudyError, match=r"the worker on .* has neuromech .*; the search has neuromech 0\.0"):
+        call(replace(packed, versions=("neuromech 0.0",)), -3)
 
 
 def test_a_scheduler_that_is_not_there_is_named():

@@ -15,7 +15,6 @@ from searches import contents
 
 from neuromech.errors import StudyError
 from neuromech.study.database import Database
-from neuromech.study.storage import StoredStudy
 
 HALF_CENTRE = Path(__file__).parents[3] / "specs" / "examples" / "half_centre.yaml"
 DOCUMENT = f"""
@@ -49,21 +48,21 @@ def command(folder: Path, storage: str, *options: str) -> "subprocess.Popen[byte
     return subprocess.Popen([sys.executable, "-m", "neuromech.cli", *words], cwd=folder)
 
 
-def finished(folder: Path, storage: str) -> StoredStudy:
-    """Go on to the end; return the study."""
+def finish(folder: Path, storage: str) -> None:
+    """Go on to the end."""
     with command(folder, storage) as process:
         assert process.wait(600) == 0
-    return opened(folder, storage)
 
 
-def opened(folder: Path, storage: str) -> StoredStudy:
-    return Database(storage if "://" in storage else str(folder / storage), create=False).open("tuned")
+def opened(folder: Path, storage: str) -> Database:
+    return Database(storage if "://" in storage else str(folder / storage), create=False)
 
 
 def stored(folder: Path, storage: str) -> dict[int, dict[str, Any]]:
     """Return what is stored, with the time that each evaluation took, which a second one would not repeat."""
     try:
-        return {one.number: one.to_dict() for one in opened(folder, storage).evaluations()}
+        with opened(folder, storage) as database:
+            return {one.number: one.to_dict() for one in database.open("tuned").evaluations()}
     except StudyError:
         return {}
 
@@ -82,7 +81,7 @@ def killed_at(folder: Path, storage: str, evaluations: int, delay: float) -> Non
 def killed_and_resumed(folder: Path, storage: str, evaluations: int, kills: int) -> None:
     """Kill a study again and again, and compare what is left in the end with a study that was left alone."""
     (folder / "tuned.yaml").write_text(DOCUMENT.replace("EVALUATIONS", str(evaluations)))
-    alone = finished(folder, "alone.db")
+    finish(folder, "alone.db")
     moments = random.Random(20)
     kept: dict[int, dict[str, Any]] = {}
     for target in sorted(moments.randrange(evaluations) for _ in range(kills)):
@@ -90,12 +89,14 @@ def killed_and_resumed(folder: Path, storage: str, evaluations: int, kills: int)
         now = stored(folder, storage)
         assert now == now | kept, "what was stored is lost or has changed"
         kept = now
-    resumed = finished(folder, storage)
+    finish(folder, storage)
     assert kept
     assert stored(folder, storage) == stored(folder, storage) | kept
-    assert contents(resumed) == contents(alone)
-    assert len(contents(alone)) == evaluations
-    assert resumed.boundary() == alone.boundary()
+    with opened(folder, "alone.db") as one, opened(folder, storage) as other:
+        alone, resumed = one.open("tuned"), other.open("tuned")
+        assert contents(resumed) == contents(alone)
+        assert len(contents(alone)) == evaluations
+        assert resumed.boundary() == alone.boundary()
 
 
 def test_a_study_in_a_file_survives_being_killed(tmp_path: Path):
