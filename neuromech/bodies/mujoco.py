@@ -4,7 +4,6 @@ Every body owns a model and its data.
 """
 
 from collections.abc import Sequence
-from importlib.metadata import version
 from typing import Any, ClassVar, Literal
 
 import numpy as np
@@ -12,6 +11,7 @@ import numpy as np
 from neuromech.bodies.base import Body, Engine, Floats, initial_motion, root_quaternion
 from neuromech.bodies.mujoco_native import push, read
 from neuromech.bodies.mujoco_world import build_model, load_mujoco, step_address
+from neuromech.bodies.versions import package_version
 from neuromech.compiler.body_state import BodyState
 from neuromech.compiler.numerics import Integers
 from neuromech.compiler.tree import FREE_ROOT, PLANAR_ROOT, lower_tree
@@ -46,7 +46,7 @@ class MujocoBody(Body):
         self.joints = tuple(body.joints)
         self.contacts = tuple(body.contacts)
         self.step_seconds = step
-        self.engine = Engine("mujoco", version("mujoco"), "python" if address is None else "native")
+        self.engine = Engine("mujoco", package_version("mujoco"), "python" if address is None else "native")
         self.layout = BodyState(len(body.joints), len(body.contacts))
         joints = [self._model.joint(name) for name in self.joints]
         places = [[joint.qposadr[0] for joint in joints], [joint.dofadr[0] for joint in joints]]

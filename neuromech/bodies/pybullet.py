@@ -5,7 +5,6 @@ repeats a run bit for bit only in a fresh world (https://github.com/bulletphysic
 """
 
 from collections.abc import Sequence
-from importlib.metadata import version
 from typing import ClassVar, Literal, Protocol
 
 from neuromech.bodies.base import Body, Engine, Floats, initial_motion
@@ -14,6 +13,7 @@ from neuromech.bodies.bullet_client import BulletClient
 from neuromech.bodies.bullet_native import BulletEngine, NativeMotion
 from neuromech.bodies.bullet_python import PythonClient, PythonMotion
 from neuromech.bodies.pybullet_world import BulletWorld, build_world, check_pybullet, put
+from neuromech.bodies.versions import package_version
 from neuromech.compiler.body_state import BodyState
 from neuromech.errors import RunError
 from neuromech.graph.model import BodyModel
@@ -63,7 +63,7 @@ class PyBulletBody(Body):
         self.joints = tuple(body.joints)
         self.contacts = tuple(body.contacts)
         self.step_seconds = step
-        self.engine = Engine("pybullet", version("pybullet"), self._path)
+        self.engine = Engine("pybullet", package_version("pybullet"), self._path)
         self.layout = BodyState(len(body.joints), len(body.contacts))
         self._body = body
         self._motion: _Motion | None = None

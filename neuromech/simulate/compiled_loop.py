@@ -1,11 +1,13 @@
 """The loop over body steps for engines with compiled functions: reading, stepping and recording without Python."""
 
 import importlib
+from functools import cache
 from pathlib import Path
 from types import ModuleType
 
 from neuromech.compiler.cache import import_file, module_file
 from neuromech.compiler.program import Program
+from neuromech.components.base import Component
 
 FINISHED, BAD_TORQUE, FELL, BAD_STATE, ENGINE_FAILED = range(5)
 
@@ -52,7 +54,13 @@ def run(first, last, dt, x, s, u, p, F, I, R, T, D, engine, lowest, least_cosine
 
 def compiled_loop(program: Program, native_module: str) -> ModuleType:
     """Return the module whose `run` steps a program with the compiled functions of an engine."""
-    step = program.module.__name__
+    kinds = tuple(kind.cls for kind in program.shape.kinds)
+    return import_file(_loop_file(program.module.__name__, program.module_file.parent, native_module, kinds))
+
+
+@cache
+def _loop_file(step: str, _folder: Path, native_module: str, kinds: tuple[type[Component], ...]) -> Path:
+    """Return the file of a loop; what its name depends on is read once for each folder of generated modules."""
     source = _SOURCE.format(
         native=native_module,
         step=step,
@@ -63,5 +71,4 @@ def compiled_loop(program: Program, native_module: str) -> ModuleType:
         failed=ENGINE_FAILED,
     )
     engine = importlib.import_module(native_module)
-    file = module_file(source, [kind.cls for kind in program.shape.kinds], [Path(str(engine.__file__))])
-    return import_file(file)
+    return module_file(source, kinds, [Path(str(engine.__file__))])

@@ -1,11 +1,10 @@
 """Where a run writes its samples, and how they become a recording."""
 
 import platform
-from functools import cache
-from importlib.metadata import version
 
 import numpy as np
 
+from neuromech.bodies.versions import package_version
 from neuromech.compiler.lower import recorded
 from neuromech.compiler.numerics import Floats, Integers
 from neuromech.compiler.program import Program
@@ -15,11 +14,6 @@ from neuromech.simulate.recording import GroupData, Outcome, Provenance, Recordi
 from neuromech.units import si_unit
 
 _PACKAGES = ("numpy", "scipy", "numba", "pybullet")
-
-
-@cache
-def _version(package: str) -> str:
-    return version(package)
 
 
 class Recorder:
@@ -51,8 +45,8 @@ class Recorder:
         provenance = Provenance(
             name=document.experiment.name,
             specification=document.text,
-            version=_version("neuromech"),
-            versions={package: _version(package) for package in _PACKAGES},
+            version=package_version("neuromech"),
+            versions={package: package_version(package) for package in _PACKAGES},
             engine=engine,
             platform=f"{platform.platform()}, Python {platform.python_version()}",
             seed=seed,
