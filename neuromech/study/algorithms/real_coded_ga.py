@@ -121,11 +121,16 @@ def roulette_pairs(weights: Floats, eligible: NDArray[np.int64], count: int, ran
 
     Where nobody left to draw has a weight, all of them are equally likely.
     """
-    pairs = np.zeros((count, 2), dtype=np.int64)
-    for pair in pairs:
-        pair[0] = _drawn(weights, eligible, random)
-        pair[1] = _drawn(weights, eligible[eligible != pair[0]], random)
-    return pairs
+    shares = weights[eligible] if weights.any() else np.ones(len(eligible))
+    edges = np.concatenate([[0.0], np.cumsum(shares)])
+    first = _pocket(edges, edges[-1] * random.random(count))
+    below, above = edges[first], edges[first + 1]
+    ball = (below + (edges[-1] - above)) * random.random(count)
+    second = _pocket(edges, np.where(ball < below, ball, ball - below + above))
+    # Where the first parent had the whole wheel, the second is any of the others.
+    alone = below + (edges[-1] - above) <= 0.0
+    second[alone] = (first[alone] + random.integers(1, len(eligible), int(alone.sum()))) % len(eligible)
+    return np.stack([eligible[first], eligible[second]], axis=1)
 
 
 def crossing_loci(shape: tuple[int, ...], rate: float, random: Generator) -> NDArray[np.bool_]:
@@ -148,8 +153,7 @@ def blend(first: Floats, second: Floats, alpha: float, random: Generator) -> Flo
     return np.clip(least + (most - least) * random.random(first.shape), least, most)
 
 
-def _drawn(weights: Floats, eligible: NDArray[np.int64], random: Generator) -> int:
-    edges = np.cumsum(weights[eligible])
-    if edges[-1] <= 0.0:
-        return int(random.choice(eligible))
-    return int(eligible[np.searchsorted(edges, edges[-1] * random.random(), side="right")])
+def _pocket(edges: Floats, ball: Floats) -> NDArray[np.int64]:
+    """Return the pocket in which each ball lies, from the edges of all pockets."""
+    found = np.searchsorted(edges, ball, side="right") - 1
+    return np.minimum(found, int(np.flatnonzero(np.diff(edges))[-1]))
