@@ -5,7 +5,7 @@ import math
 import pytest
 from search_rates import PAIRS, PROBLEMS, cell, runs, solved
 
-SPHERE, ROSENBROCK, RASTRIGIN = PROBLEMS
+SPHERE, ROSENBROCK, _ = PROBLEMS
 
 
 @pytest.mark.parametrize("name", PAIRS)
@@ -24,3 +24,20 @@ def test_what_is_solved_is_counted():
     assert len(solved(searches)) == 3
     assert cell(searches).startswith("3/3 (")
     assert cell(runs(pair.ours, SPHERE, 50, range(2))).startswith("0/2 (–; ")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("name", "problem", "least"),
+    [
+        ("`real_coded_ga`", SPHERE, 18),
+        ("`pso`", SPHERE, 20),
+        ("`pso`, `constricts: all`", SPHERE, 20),
+        ("`pso`, `constricts: all`", ROSENBROCK, 15),
+        ("`cma_es`", SPHERE, 20),
+        ("`cma_es`", ROSENBROCK, 16),
+    ],
+)
+def test_our_rates_are_not_below_those_of_the_table(name, problem, least):
+    pair = PAIRS[name]
+    assert len(solved(runs(pair.ours, problem, pair.most))) >= least
