@@ -89,6 +89,7 @@ class Catalogue:
                 )
             found[key] = cls
         self.classes: Mapping[tuple[Family, str], type[Component]] = MappingProxyType(found)
+        self._kinds = {family: tuple(sorted(kind for one, kind in found if one == family)) for family, _ in found}
 
     @classmethod
     def built_in(cls) -> Self:
@@ -103,7 +104,7 @@ class Catalogue:
 
     def kinds(self, family: Family) -> tuple[str, ...]:
         """Return the kinds of a family in alphabetical order."""
-        return tuple(sorted(kind for found, kind in self.classes if found == family))
+        return self._kinds.get(family, ())
 
     def find(self, family: Family, kind: str) -> type[Component] | None:
         """Return the class of a kind, or None where the family has no such kind."""

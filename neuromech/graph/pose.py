@@ -54,13 +54,21 @@ def _clearance(below: Terrain, center: Vector, radius: float) -> float:
     x, y, z = center
     if below.plane is not None and not below.steps:
         return z - radius - below.plane[0]
+    across = _SHARES if _near_step(below, x, y, radius) else (0.0,)
     gaps = (
         z - radius * sqrt(1.0 - min(1.0, u * u + v * v)) - below.height(x + radius * u, y + radius * v)
         for u in _SHARES
-        for v in (_SHARES if below.steps else (0.0,))
+        for v in across
         if u * u + v * v <= 1.0
     )
     return min(gaps)
+
+
+def _near_step(below: Terrain, x: float, y: float, radius: float) -> bool:
+    return any(
+        abs(x - middle) <= length + thickness + radius and low - radius <= y <= high + radius
+        for middle, _, length, thickness, _, _, low, high in below.steps
+    )
 
 
 def _moved(rotation: Matrix, origin: Vector, joint: Joint) -> tuple[Matrix, Vector]:
