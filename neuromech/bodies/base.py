@@ -48,10 +48,10 @@ class Body(ABC):
         step_seconds: time by which one step advances the body.
         engine: what moves the body.
         layout: where things stand in the state array.
-        native_module: module with the compiled functions `read(engine, state)`, `step(engine, torque)` and
-            `push(engine, segment, acting)`, None where the engine has none. They do what the methods do, to the last
-            bit. Instead of raising they return an integer: 0, or another number where the engine failed; `check`
-            tells why.
+        native_module: module with the compiled functions `read(engine, state)`, `step(engine, torque)`,
+            `push(engine, segment, acting)` and `place(engine, weight, position)`, None where the engine has none. They
+            do what the methods do, to the last bit. Instead of raising they return an integer: 0, or another number
+            where the engine failed; `check` tells why.
     """
 
     native_module: ClassVar[str | None] = None
@@ -84,13 +84,25 @@ class Body(ABC):
         """Let a force act on a segment during the next step, beside those that act already.
 
         Args:
-            segment: row of the segment, in the order of the body.
+            segment: row of the segment, in the order of the body; weights of pendulums follow.
             acting: (9,) force in N, the point where it acts and the centre of mass of the segment in m, world axes.
 
         Raises:
             RunError: the engine knows no pushes, or failed, or the body is closed.
         """
         raise RunError(f"engine '{self.engine.name}' knows no pushes")
+
+    def place(self, weight: int, position: Floats) -> None:
+        """Put the weight of a pendulum to a place, at rest.
+
+        Args:
+            weight: which one, in the order of the world.
+            position: (3,) of its middle in m.
+
+        Raises:
+            RunError: the engine knows no pendulums, or failed, or the body is closed.
+        """
+        raise RunError(f"engine '{self.engine.name}' knows no pendulums")
 
     @abstractmethod
     def reset(self, angles: Sequence[float] | Floats, velocities: Sequence[float] | Floats | None = None) -> None:

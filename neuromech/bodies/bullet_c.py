@@ -45,6 +45,9 @@ _SIGNATURES: Final[dict[str, tuple[Any, ...]]] = {
     "b3GetJointInfo": (_I, _P, _I, _I, _P),
     "b3CreateCollisionShapeCommandInit": (_P, _P),
     "b3CreateCollisionShapeAddPlane": (_I, _P, _P, _D),
+    "b3CreateCollisionShapeAddSphere": (_I, _P, _D),
+    "b3CollisionFilterCommandInit": (_P, _P),
+    "b3SetCollisionFilterGroupMask": (_I, _P, _I, _I, _I, _I),
     "b3CreateCollisionShapeAddBox": (_I, _P, _P),
     "b3CreateCollisionShapeSetChildTransform": (None, _P, _I, _P, _P),
     "b3CreateMultiBodyCommandInit": (_P, _P),
@@ -189,6 +192,18 @@ class CClient(BulletClient):
             self._b3.b3CreateCollisionShapeSetChildTransform(command, number, place, turned)
         return self._add(command, (0.0, 0.0, 0.0))
 
+    def add_ball(self, radius: float, mass: float, position: Sequence[float]) -> int:
+        """Add a ball."""
+        command = self._b3.b3CreateCollisionShapeCommandInit(self.handle)
+        self._b3.b3CreateCollisionShapeAddSphere(command, radius)
+        return self._add(command, position, mass)
+
+    def set_partners(self, thing: int, link: int, group: int, partners: int) -> None:
+        """Say with what a link collides."""
+        command = self._b3.b3CollisionFilterCommandInit(self.handle)
+        self._b3.b3SetCollisionFilterGroupMask(command, thing, link, group, partners)
+        self._submit(command)
+
     def stop_motors(self, robot: int, joints: Sequence[BulletJoint]) -> None:
         """Take away the force of the motors."""
         command = self._b3.b3JointControlCommandInit2(self.handle, robot, _VELOCITY_CONTROL)
@@ -247,11 +262,11 @@ class CClient(BulletClient):
             self._b3.b3DisconnectSharedMemory(self.handle)
             self.handle = 0
 
-    def _add(self, shape: int, position: Sequence[float]) -> int:
+    def _add(self, shape: int, position: Sequence[float], mass: float = 0.0) -> int:
         number = self._b3.b3GetStatusCollisionShapeUniqueId(self._submit(shape))
         command = self._b3.b3CreateMultiBodyCommandInit(self.handle)
         nowhere, level = _numbers(0.0, 0.0, 0.0), _numbers(0.0, 0.0, 0.0, 1.0)
-        self._b3.b3CreateMultiBodyBase(command, 0.0, number, -1, _numbers(*position), level, nowhere, level)
+        self._b3.b3CreateMultiBodyBase(command, mass, number, -1, _numbers(*position), level, nowhere, level)
         return int(self._b3.b3GetStatusBodyIndex(self._submit(command)))
 
     def _submit(self, command: int) -> int:

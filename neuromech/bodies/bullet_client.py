@@ -73,6 +73,14 @@ class BulletClient(ABC):
         """Add at most `MOST_BOXES` boxes that never move, as one thing, and return it."""
 
     @abstractmethod
+    def add_ball(self, radius: float, mass: float, position: Sequence[float]) -> int:
+        """Add a homogeneous ball that moves freely, its middle at a place in m, and return it."""
+
+    @abstractmethod
+    def set_partners(self, thing: int, link: int, group: int, partners: int) -> None:
+        """Let a link collide only with links of the groups of which `partners` has the bits; its own is `group`."""
+
+    @abstractmethod
     def stop_motors(self, robot: int, joints: Sequence[BulletJoint]) -> None:
         """Take away the force of the motors with which joints are born."""
 

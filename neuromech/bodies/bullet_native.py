@@ -41,6 +41,11 @@ _CALLS: Final = (
     "b3JointControlCommandInit2",
     "b3JointControlSetDesiredForceTorque",
     "b3InitStepSimulationCommand",
+    "b3CreatePoseCommandInit",
+    "b3CreatePoseCommandSetBasePosition",
+    "b3CreatePoseCommandSetBaseOrientation",
+    "b3CreatePoseCommandSetBaseLinearVelocity",
+    "b3CreatePoseCommandSetBaseAngularVelocity",
     "b3ApplyExternalForceCommandInit",
     "b3ApplyExternalForce",
     "b3SubmitClientCommand",
@@ -57,6 +62,11 @@ _CALLS: Final = (
     _CONTROL,
     _SET_TORQUE,
     _STEP,
+    _POSE,
+    _SET_PLACE,
+    _SET_TURN,
+    _SET_VELOCITY,
+    _SET_SPIN,
     _PUSH,
     _SET_PUSH,
     _SUBMIT,
@@ -87,6 +97,9 @@ _of_robot = foreign_function(ADDRESS, ADDRESS, INT)
 _control = foreign_function(ADDRESS, ADDRESS, INT, INT)
 _set_torque = foreign_function(INT, ADDRESS, INT, DOUBLE)
 _set_push = foreign_function(NOTHING, ADDRESS, INT, INT, ADDRESS, ADDRESS, INT)
+_set_place = foreign_function(INT, ADDRESS, DOUBLE, DOUBLE, DOUBLE)
+_set_turn = foreign_function(INT, ADDRESS, DOUBLE, DOUBLE, DOUBLE, DOUBLE)
+_set_velocity = foreign_function(INT, ADDRESS, ADDRESS)
 _filter = foreign_function(NOTHING, ADDRESS, INT)
 _submit = foreign_function(INT, ADDRESS, ADDRESS)
 _status = foreign_function(INT, ADDRESS)
@@ -107,7 +120,9 @@ class BulletEngine(NamedTuple):
         constants: first pose of the root frame (7), centre of mass of the root segment in its frame (3), height
             above which each contact is clear of the ground.
         answer: room for what Bullet answers.
-        links: Bullet's link number of each segment, −1 of the root link.
+        links: (segments + weights, 2) robot and Bullet's link number of each segment, −1 of a root link; then the
+            weights on strings.
+        weights: (weights,) Bullet's numbers of the weights.
     """
 
     calls: Integers
@@ -118,6 +133,7 @@ class BulletEngine(NamedTuple):
     constants: Floats
     answer: Integers
     links: Integers
+    weights: Integers
 
 
 class NativeMotion:
@@ -148,6 +164,10 @@ class NativeMotion:
         """Let a force act on a segment during the next step."""
         push(self._engine, segment, acting)
 
+    def place(self, weight: int, position: Floats) -> None:
+        """Put the weight of a pendulum to a place, at rest."""
+        place(self._engine, weight, position)
+
     def native(self) -> BulletEngine:
         """Return what the compiled functions take."""
         return self._engine
@@ -174,6 +194,7 @@ def _engine(client: CClient, world: BulletWorld) -> BulletEngine:
         constants=np.array([*world.root_pose, *world.center, *world.clear_heights]),
         answer=np.zeros(3, dtype=np.int64),
         links=np.array(world.links, dtype=np.int64),
+        weights=np.array(world.weights, dtype=np.int64),
     )
 
 
@@ -203,7 +224,10 @@ def read(engine: BulletEngine, state: Floats) -> int:
     else:
         for k in range(13):
             state[2 * n + k] = engine.constants[k] if k < 7 else 0.0
-    _read_contacts(engine, answer[2], state, 2 * n + 13)
+    hanging = state.shape[0] - 9 * engine.weights.shape[0]
+    _read_contacts(engine, answer[2], state[:hanging], 2 * n + 13)
+    for k in range(engine.weights.shape[0]):
+        _read_weight(engine, k, state[hanging + 9 * k : hanging + 9 * k + 9])
     return 0
 
 
@@ -233,7 +257,21 @@ def push(engine: BulletEngine, segment: int, acting: Floats) -> int:
     """Let a force act on a segment during the next step; `acting` (9,) as in `Body.push`. Returns 0."""
     calls, world, force = engine.calls, engine.world, acting.ctypes.data
     command = _of_client(calls[_PUSH], (world[CLIENT],))
-    _set_push(calls[_SET_PUSH], (command, world[ROBOT], engine.links[segment], force, force + 24, _WORLD_FRAME))
+    thing, link = engine.links[segment, 0], engine.links[segment, 1]
+    _set_push(calls[_SET_PUSH], (command, thing, link, force, force + 24, _WORLD_FRAME))
+    _answered(engine, command)
+    return 0
+
+
+@partial(_exact, keep=True)
+def place(engine: BulletEngine, weight: int, position: Floats) -> int:
+    """Put the weight of a pendulum to a place (3,), at rest. Returns 0."""
+    calls, nowhere = engine.calls, np.zeros(3)
+    command = _of_robot(calls[_POSE], (engine.world[CLIENT], engine.weights[weight]))
+    _set_place(calls[_SET_PLACE], (command, position[0], position[1], position[2]))
+    _set_turn(calls[_SET_TURN], (command, 0.0, 0.0, 0.0, 1.0))
+    _set_velocity(calls[_SET_VELOCITY], (command, nowhere.ctypes.data))
+    _set_velocity(calls[_SET_SPIN], (command, nowhere.ctypes.data))
     _answered(engine, command)
     return 0
 
@@ -304,6 +342,27 @@ def _read_contacts(engine: BulletEngine, links: int, state: Floats, start: int) 
     for number in range(load_int(answer.ctypes.data)):
         point = load_address(answer.ctypes.data + 8) + _POINT_SIZE * number
         _add_contact(engine, point, state, start)
+
+
+@_exact
+def _read_weight(engine: BulletEngine, weight: int, into: Floats) -> None:
+    calls, world, answer, number = engine.calls, engine.world, engine.answer, engine.weights[weight]
+    room = answer.ctypes.data
+    status = _answered(engine, _of_robot(calls[_REQUEST_STATE], (world[CLIENT], number)))
+    _state(calls[_STATE], (status, 0, 0, 0, 0, 0, room, room + 8, 0, 0, 0, room + 16, 0))
+    for c in range(3):
+        into[c] = load_double(answer[0] + 8 * c)
+        into[3 + c] = load_double(answer[1] + 8 * c)
+        into[6 + c] = 0.0
+    command = _of_client(calls[_REQUEST_CONTACTS], (world[CLIENT],))
+    _filter(calls[_FILTER_A], (command, number))
+    _filter(calls[_FILTER_B], (command, world[ROBOT]))
+    _answered(engine, command)
+    _contacts(calls[_CONTACTS], (world[CLIENT], room))
+    for found in range(load_int(room)):
+        point = load_address(room + 8) + _POINT_SIZE * found
+        for c in range(3):
+            into[6 + c] -= load_double(point + _NORMAL_FORCE) * load_double(point + _NORMAL + 8 * c)
 
 
 @_exact

@@ -74,6 +74,16 @@ class PythonClient(BulletClient):
         thing: int = pybullet.createMultiBody(0.0, shape, physicsClientId=self.number)
         return thing
 
+    def add_ball(self, radius: float, mass: float, position: Sequence[float]) -> int:
+        """Add a ball."""
+        shape = pybullet.createCollisionShape(pybullet.GEOM_SPHERE, radius=radius, physicsClientId=self.number)
+        ball: int = pybullet.createMultiBody(mass, shape, basePosition=position, physicsClientId=self.number)
+        return ball
+
+    def set_partners(self, thing: int, link: int, group: int, partners: int) -> None:
+        """Say with what a link collides."""
+        pybullet.setCollisionFilterGroupMask(thing, link, group, partners, physicsClientId=self.number)
+
     def stop_motors(self, robot: int, joints: Sequence[BulletJoint]) -> None:
         """Take away the force of the motors."""
         pybullet.setJointMotorControlArray(
@@ -134,6 +144,7 @@ class PythonMotion:
             state[self._layout.velocities] = [joint[1] for joint in moving[:n]]
             self._read_root(state, moving[n:])
             self._read_contacts(state)
+            self._read_weights(state)
 
     def step(self, torque: Floats) -> None:
         """Apply joint torques and advance by one step."""
@@ -150,12 +161,17 @@ class PythonMotion:
 
     def push(self, segment: int, acting: Floats) -> None:
         """Let a force act on a segment during the next step."""
-        link = self.world.links[segment]
+        thing, link = self.world.links[segment]
         force, point = acting[:3].tolist(), acting[3:6].tolist()
         with _translated():
             pybullet.applyExternalForce(
-                self.world.robot, link, force, point, pybullet.WORLD_FRAME, physicsClientId=self.client.number
+                thing, link, force, point, pybullet.WORLD_FRAME, physicsClientId=self.client.number
             )
+
+    def place(self, weight: int, position: Floats) -> None:
+        """Put the weight of a pendulum to a place, at rest."""
+        with _translated():
+            self.client.put_root(self.world.weights[weight], position.tolist(), (0.0, 0.0, 0.0, 1.0), (0.0, 0.0, 0.0))
 
     def check(self) -> None:
         """Do nothing: the methods raise their own errors."""
@@ -215,6 +231,17 @@ class PythonMotion:
             for k in range(3):
                 along = sign * point[9] * normal[k] + sign * point[10] * first[k]
                 forces[at + k] += along + sign * point[12] * second[k]
+
+    def _read_weights(self, state: Floats) -> None:
+        client = self.client.number
+        weights = state[self._layout.hanging].reshape(-1, 9)
+        for weight, row in zip(self.world.weights, weights, strict=True):
+            row[:3], _ = pybullet.getBasePositionAndOrientation(weight, physicsClientId=client)
+            row[3:6], _ = pybullet.getBaseVelocity(weight, physicsClientId=client)
+            row[6:] = 0.0
+            for point in pybullet.getContactPoints(weight, self.world.robot, physicsClientId=client):
+                for k in range(3):
+                    row[6 + k] -= point[9] * point[7][k]
 
 
 @contextmanager

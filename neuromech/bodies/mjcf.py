@@ -1,8 +1,9 @@
 """MJCF text of a body, as MuJoCo loads it.
 
-Nothing collides but contact spheres with the ground: every such couple is a `<pair>` of its own, so that its friction
-is the product of the two frictions, as in Bullet. (MuJoCo's rule for colliding geometries is the larger of the two.) A
-contact sensor per sphere reports the force of the ground on it in world axes.
+Nothing collides but contact spheres with the ground, and weights on strings with the segment that they hit: every such
+couple is a `<pair>` of its own, so that its friction is the product of the two frictions, as in Bullet. (MuJoCo's rule
+for colliding geometries is the larger of the two.) A contact sensor per sphere reports the force of the ground on it in
+world axes, one per weight its force on the segment.
 """
 
 from math import cos, sin
@@ -14,10 +15,13 @@ from neuromech.compiler.tree import unit_vector
 from neuromech.graph.model import BodyModel
 from neuromech.graph.terrain import Terrain, terrain
 from neuromech.spec.model import BoxShape, Contact, Joint, Segment
+from neuromech.spec.pendulum import Pendulum
 
 # Qualified names of a document hold no colon, so these collide with none.
 CONTACT: Final = "contact:"
 GROUND: Final = "ground:"
+SHAPE: Final = "shape:"
+WEIGHT: Final = "pendulum:"
 PLANAR_JOINTS: Final = ("root:x", "root:z", "root:pitch")
 
 # A contact that gives no stiffness: critically damped, time constant in seconds; constraint widths as measured.
@@ -52,13 +56,21 @@ def mjcf_text(body: BodyModel, step: float) -> str:
     for joint in body.joints.values():
         elements[joint.parent].append(elements[joint.child])
     for name, segment in body.segments.items():
-        _segment(elements[name], segment)
+        _segment(elements[name], name, segment)
     for name, contact in body.contacts.items():
         size, position = _text(contact.radius), _text(*contact.position)
         sphere = {"name": CONTACT + name, "type": "sphere", "size": size, "pos": position}
         ElementTree.SubElement(elements[contact.segment], "geom", sphere | _NO_VOLUME)
+    for name, pendulum in body.world.pendulums.items():
+        _weight(world, name, pendulum)
+    pairs, sensors = ElementTree.SubElement(model, "contact"), ElementTree.SubElement(model, "sensor")
     if body.world.ground is not None:
-        _ground(model, world, terrain(body.world.ground), body.contacts)
+        _ground(world, pairs, sensors, terrain(body.world.ground), body.contacts)
+    for name, pendulum in body.world.pendulums.items():
+        both = {"geom1": WEIGHT + name, "geom2": SHAPE + pendulum.segment}
+        law = {"solref": _text(*_SOLREF), "solimp": _text(*_SOLIMP), "condim": "1"}
+        ElementTree.SubElement(pairs, "pair", both | law)
+        ElementTree.SubElement(sensors, "contact", both | {"data": "force", "reduce": "netforce", "num": "1"})
     ElementTree.indent(model)
     return ElementTree.tostring(model, encoding="unicode")
 
@@ -98,16 +110,18 @@ def _joint(element: ElementTree.Element, name: str, joint: Joint, step: float) -
     ElementTree.SubElement(element, "joint", attributes)
 
 
-def _segment(element: ElementTree.Element, segment: Segment) -> None:
+def _segment(element: ElementTree.Element, name: str, segment: Segment) -> None:
     inertial = {"pos": _text(*segment.center_of_mass), "mass": _text(segment.mass)}
     ElementTree.SubElement(element, "inertial", inertial | {"diaginertia": _text(*segment.inertia)})
     shape = segment.shape
     if isinstance(shape, BoxShape):
         size, position = _text(*(side / 2 for side in shape.size)), _text(*shape.position)
-        ElementTree.SubElement(element, "geom", {"type": "box", "size": size, "pos": position} | _NO_VOLUME)
+        box = {"name": SHAPE + name, "type": "box", "size": size, "pos": position}
+        ElementTree.SubElement(element, "geom", box | _NO_VOLUME)
     elif shape is not None:
         ends, size = _text(*shape.start, *shape.end), _text(shape.radius)
-        ElementTree.SubElement(element, "geom", {"type": "capsule", "size": size, "fromto": ends} | _NO_VOLUME)
+        capsule = {"name": SHAPE + name, "type": "capsule", "size": size, "fromto": ends}
+        ElementTree.SubElement(element, "geom", capsule | _NO_VOLUME)
 
 
 def ground_pieces(ground: Terrain) -> list[tuple[str, float]]:
@@ -116,8 +130,22 @@ def ground_pieces(ground: Terrain) -> list[tuple[str, float]]:
     return [*plane, *((GROUND + box.name, box.friction) for box in ground.boxes)]
 
 
+def _weight(world: ElementTree.Element, name: str, pendulum: Pendulum) -> None:
+    element = ElementTree.SubElement(world, "body", name=WEIGHT + name)
+    moment = _text(*[0.4 * pendulum.mass * pendulum.radius**2] * 3)
+    ElementTree.SubElement(element, "inertial", {"pos": "0 0 0", "mass": _text(pendulum.mass), "diaginertia": moment})
+    for axis, direction in zip("xyz", ("1 0 0", "0 1 0", "0 0 1"), strict=True):
+        ElementTree.SubElement(element, "joint", name=f"{WEIGHT}{name}:{axis}", type="slide", axis=direction)
+    ball = {"name": WEIGHT + name, "type": "sphere", "size": _text(pendulum.radius)}
+    ElementTree.SubElement(element, "geom", ball | _NO_VOLUME)
+
+
 def _ground(
-    model: ElementTree.Element, world: ElementTree.Element, ground: Terrain, contacts: dict[str, Contact]
+    world: ElementTree.Element,
+    pairs: ElementTree.Element,
+    sensors: ElementTree.Element,
+    ground: Terrain,
+    contacts: dict[str, Contact],
 ) -> None:
     if ground.plane is not None:
         plane = {"name": GROUND, "type": "plane", "size": "0 0 1", "pos": _text(0.0, 0.0, ground.plane[0])}
@@ -127,8 +155,6 @@ def _ground(
         turned = _text(cos(box.angle / 2), 0.0, -sin(box.angle / 2), 0.0)
         shape = {"name": GROUND + box.name, "type": "box", "size": size, "pos": position, "quat": turned}
         ElementTree.SubElement(world, "geom", shape | _NO_VOLUME)
-    pairs = ElementTree.SubElement(model, "contact")
-    sensors = ElementTree.SubElement(model, "sensor")
     for name, contact in contacts.items():
         for piece, ground_friction in ground_pieces(ground):
             ElementTree.SubElement(pairs, "pair", _pair(piece, CONTACT + name, ground_friction * contact.friction))

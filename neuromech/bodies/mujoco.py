@@ -9,7 +9,8 @@ from typing import Any, ClassVar, Literal
 import numpy as np
 
 from neuromech.bodies.base import Body, Engine, Floats, initial_motion, root_quaternion
-from neuromech.bodies.mujoco_native import push, read
+from neuromech.bodies.mjcf import WEIGHT
+from neuromech.bodies.mujoco_native import place, push, read
 from neuromech.bodies.mujoco_world import build_model, load_mujoco, step_address
 from neuromech.bodies.versions import package_version
 from neuromech.compiler.body_state import BodyState
@@ -17,6 +18,7 @@ from neuromech.compiler.numerics import Integers
 from neuromech.compiler.tree import FREE_ROOT, PLANAR_ROOT, lower_tree
 from neuromech.errors import RunError
 from neuromech.graph.model import BodyModel
+from neuromech.graph.swing import first_place
 
 
 class MujocoBody(Body):
@@ -47,11 +49,12 @@ class MujocoBody(Body):
         self.contacts = tuple(body.contacts)
         self.step_seconds = step
         self.engine = Engine("mujoco", package_version("mujoco"), "python" if address is None else "native")
-        self.layout = BodyState(len(body.joints), len(body.contacts))
+        self.layout = BodyState(len(body.joints), len(body.contacts), len(body.world.pendulums))
         joints = [self._model.joint(name) for name in self.joints]
         places = [[joint.qposadr[0] for joint in joints], [joint.dofadr[0] for joint in joints]]
         self._root_start = _root_start(body)
         self._root_velocity = _root_velocity(body)
+        self._weight_starts = [np.array(first_place(body, one)) for one in body.world.pendulums.values()]
         self._engine = self._views(body, np.array(places, dtype=np.int64).reshape(2, -1), address or 0)
         self.reset(*initial_motion(body))
 
@@ -61,7 +64,7 @@ class MujocoBody(Body):
 
     def step(self, torque: Floats) -> None:
         """Apply joint torques and advance by one step."""
-        _, _, places, _, _, applied, _, warnings, pushed, _ = self._opened()
+        _, _, places, _, _, applied, _, warnings, pushed, *_ = self._opened()
         applied[places[1]] = torque
         self._mujoco.mj_step(self._model, self._data)
         pushed[:] = 0.0
@@ -71,6 +74,10 @@ class MujocoBody(Body):
     def push(self, segment: int, acting: Floats) -> None:
         """Let a force act on a segment during the next step."""
         push(self._opened(), segment, acting)
+
+    def place(self, weight: int, position: Floats) -> None:
+        """Put the weight of a pendulum to a place, at rest."""
+        place(self._opened(), weight, position)
 
     def check(self) -> None:
         """Raise the first kind of warning of MuJoCo."""
@@ -88,6 +95,8 @@ class MujocoBody(Body):
         positions[places[0]] = angles
         if velocities is not None:
             speeds[places[1]] = velocities
+        for weight, start in enumerate(self._weight_starts):
+            self.place(weight, start)
 
     def native(self) -> tuple[Any, ...] | None:
         """Return the views that `neuromech.bodies.mujoco_native` works on, None on the Python path."""
@@ -105,7 +114,10 @@ class MujocoBody(Body):
         return self._engine
 
     def _views(self, body: BodyModel, places: Integers, address: int) -> tuple[Any, ...]:
-        data = self._data
+        data, count = self._data, 3 * len(body.contacts)
+        weights = [self._model.joint(f"{WEIGHT}{name}:x") for name in body.world.pendulums]
+        starts = [[joint.qposadr[0] for joint in weights], [joint.dofadr[0] for joint in weights]]
+        rows = [*body.segments, *(WEIGHT + name for name in body.world.pendulums)]
         addresses = (address, self._model._address, data._address)
         pose = (*map(float, body.root.position), *root_quaternion(body.root))
         return (
@@ -115,10 +127,12 @@ class MujocoBody(Body):
             data.qpos,
             data.qvel,
             data.qfrc_applied,
-            data.sensordata if body.world.ground is not None else np.zeros(3 * len(body.contacts)),
+            data.sensordata[:count] if body.world.ground is not None else np.zeros(count),
             data.warning.number,
             data.xfrc_applied,
-            np.array([self._model.body(name).id for name in body.segments], dtype=np.int64),
+            np.array([self._model.body(name).id for name in rows], dtype=np.int64),
+            np.array(starts, dtype=np.int64).reshape(2, -1),
+            data.sensordata[count if body.world.ground is not None else 0 :],
         )
 
 

@@ -9,7 +9,9 @@
     forces: (3 contacts,) forces of the ground.
     warnings: how often MuJoCo warned, by kind.
     pushed: (bodies, 6) MuJoCo's xfrc_applied, force and torque about the centre of mass.
-    rows: (segments,) row of each segment in `pushed`.
+    rows: (segments + weights,) row of each segment in `pushed`, then of each weight on a string.
+    weights: (2, weights) where the first coordinate of each weight stands in `positions` and in `velocities`.
+    hits: (3 weights,) forces of the weights on the body.
 """
 
 from math import cos, sin
@@ -29,7 +31,7 @@ _exactly = numba.njit(cache=True, nogil=True, error_model="numpy")
 @_exactly
 def read(engine: tuple[Any, ...], state: Floats) -> int:
     """Fill the state array; (2 n + 13 + 3 m,), see `BodyState`. Returns 0."""
-    _, root, places, positions, velocities, _, forces, _, _, _ = engine
+    _, root, places, positions, velocities, _, forces, _, _, _, weights, hits = engine
     n = places.shape[1]
     for joint in range(n):
         state[joint] = positions[places[0, joint]]
@@ -42,14 +44,20 @@ def read(engine: tuple[Any, ...], state: Floats) -> int:
         velocity[:] = 0.0
         if root[0] == PLANAR_ROOT:
             _read_planar_root(positions, velocities, pose, velocity)
-    state[2 * n + 13 :] = forces
+    hanging = 2 * n + 13 + forces.shape[0]
+    state[2 * n + 13 : hanging] = forces
+    for k in range(weights.shape[1]):
+        for c in range(3):
+            state[hanging + 9 * k + c] = positions[weights[0, k] + c]
+            state[hanging + 9 * k + 3 + c] = velocities[weights[1, k] + c]
+            state[hanging + 9 * k + 6 + c] = hits[3 * k + c]
     return 0
 
 
 @_exactly
 def step(engine: tuple[Any, ...], torque: Floats) -> int:
     """Apply joint torques (joints,) and advance by one step. Returns the number of warnings, 0 where all is well."""
-    addresses, _, places, _, _, applied, _, warnings, pushed, _ = engine
+    addresses, _, places, _, _, applied, _, warnings, pushed, _, _, _ = engine
     for joint in range(places.shape[1]):
         applied[places[1, joint]] = torque[joint]
     _call(addresses[0], (addresses[1], addresses[2]))
@@ -71,6 +79,16 @@ def push(engine: tuple[Any, ...], segment: int, acting: Floats) -> int:
     row[3] += y * acting[2] - z * acting[1]
     row[4] += z * acting[0] - x * acting[2]
     row[5] += x * acting[1] - y * acting[0]
+    return 0
+
+
+@_exactly
+def place(engine: tuple[Any, ...], weight: int, position: Floats) -> int:
+    """Put a weight to a place (3,), at rest. Returns 0."""
+    positions, velocities, weights = engine[3], engine[4], engine[10]
+    for c in range(3):
+        positions[weights[0, weight] + c] = position[c]
+        velocities[weights[1, weight] + c] = 0.0
     return 0
 
 

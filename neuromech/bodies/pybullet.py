@@ -31,6 +31,8 @@ class _Motion(Protocol):
 
     def push(self, segment: int, acting: Floats) -> None: ...
 
+    def place(self, weight: int, position: Floats) -> None: ...
+
     def check(self) -> None: ...
 
     def native(self) -> BulletEngine | None: ...
@@ -64,7 +66,7 @@ class PyBulletBody(Body):
         self.contacts = tuple(body.contacts)
         self.step_seconds = step
         self.engine = Engine("pybullet", package_version("pybullet"), self._path)
-        self.layout = BodyState(len(body.joints), len(body.contacts))
+        self.layout = BodyState(len(body.joints), len(body.contacts), len(body.world.pendulums))
         self._body = body
         self._motion: _Motion | None = None
         self._start(*initial_motion(body))
@@ -80,6 +82,10 @@ class PyBulletBody(Body):
     def push(self, segment: int, acting: Floats) -> None:
         """Let a force act on a segment during the next step."""
         self._opened().push(segment, acting)
+
+    def place(self, weight: int, position: Floats) -> None:
+        """Put the weight of a pendulum to a place, at rest."""
+        self._opened().place(weight, position)
 
     def reset(self, angles: Sequence[float] | Floats, velocities: Sequence[float] | Floats | None = None) -> None:
         """Build the world anew and put the joints as told."""

@@ -20,6 +20,7 @@ from neuromech.bodies.urdf import CONTACT, PLANAR_JOINTS, urdf_text
 from neuromech.errors import DocumentError
 from neuromech.graph.engines import refusals
 from neuromech.graph.model import BodyModel
+from neuromech.graph.swing import first_place
 from neuromech.graph.terrain import Box, Terrain, terrain
 from neuromech.spec.model import Contact
 
@@ -29,6 +30,9 @@ Vector = tuple[float, float, float]
 _SOLVER_ITERATIONS: Final = 10
 _INERTIA_TOLERANCE: Final = 1e-9
 _GAP: Final = 0.05
+# Groups of collisions, beside those that Bullet has for all else: weights, and segments that they hit.
+_WEIGHTS: Final = 64
+_HIT: Final = 128
 _FREE: Final = {
     "linearDamping": 0.0,
     "angularDamping": 0.0,
@@ -53,7 +57,8 @@ class BulletWorld:
         free: whether the root moves freely.
         root_pose: first position in m and orientation x, y, z, w of the root frame.
         center: centre of mass of the root segment in its frame, in m.
-        links: Bullet's link number of each segment, −1 of the root link.
+        links: robot and Bullet's link number of each segment, −1 of a root link; then each weight on a string.
+        weights: the weights on strings.
         contact_row: Bullet's link number of a contact -> its row among the body's contacts.
         clear_heights: for each contact, in m, how high its centre must be for Bullet to see nothing of the ground.
     """
@@ -65,7 +70,8 @@ class BulletWorld:
     free: bool
     root_pose: tuple[float, ...]
     center: Vector
-    links: list[int]
+    links: list[tuple[int, int]]
+    weights: list[int]
     contact_row: dict[int, int]
     clear_heights: list[float]
 
@@ -95,6 +101,7 @@ def build_world(client: BulletClient, body: BodyModel, step: float) -> BulletWor
     _set_links(client, robot, body, links)
     named = {joint.name: joint for joint in every}
     x, y, z = body.segments[body.root_segment].center_of_mass
+    weights = _add_weights(client, robot, body, links)
     ground = None if body.world.ground is None else terrain(body.world.ground)
     return BulletWorld(
         robot=robot,
@@ -104,7 +111,8 @@ def build_world(client: BulletClient, body: BodyModel, step: float) -> BulletWor
         free=body.root.kind == "free",
         root_pose=(*map(float, body.root.position), *root_quaternion(body.root)),
         center=(float(x), float(y), float(z)),
-        links=[links[name] for name in body.segments],
+        links=[*((robot, links[name]) for name in body.segments), *((weight, -1) for weight in weights)],
+        weights=weights,
         contact_row={links[CONTACT + name]: row for row, name in enumerate(body.contacts)},
         clear_heights=_clear_heights(body, ground),
     )
@@ -171,6 +179,17 @@ def _add_ground(client: BulletClient, ground: Terrain | None) -> int | None:
     for piece, friction in pieces:
         client.set_dynamics(piece, -1, {"lateralFriction": friction, "restitution": 0.0})
     return pieces[0][0] if ground.plane is not None and not ground.boxes else None
+
+
+def _add_weights(client: BulletClient, robot: int, body: BodyModel, links: Mapping[str, int]) -> list[int]:
+    weights = []
+    for pendulum in body.world.pendulums.values():
+        weight = client.add_ball(float(pendulum.radius), float(pendulum.mass), first_place(body, pendulum))
+        client.set_dynamics(weight, -1, _FREE | {"lateralFriction": 0.0})
+        client.set_partners(weight, -1, _WEIGHTS, _HIT)
+        client.set_partners(robot, links[pendulum.segment], _HIT, _WEIGHTS)
+        weights.append(weight)
+    return weights
 
 
 def _alike(boxes: Sequence[Box]) -> Iterator[tuple[list[BulletBox], float]]:

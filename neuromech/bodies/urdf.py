@@ -27,8 +27,9 @@ def urdf_text(body: BodyModel) -> str:
     robot = ElementTree.Element("robot", name=body.root_segment)
     if body.root.kind == "planar":
         _planar_root(robot, body)
+    hit = {pendulum.segment for pendulum in body.world.pendulums.values()}
     for name, segment in body.segments.items():
-        _segment(robot, name, segment)
+        _segment(robot, name, segment, name in hit)
     for name, joint in body.joints.items():
         _body_joint(robot, name, joint)
     for name, contact in body.contacts.items():
@@ -55,7 +56,7 @@ def _planar_root(robot: ElementTree.Element, body: BodyModel) -> None:
         _motion(joint, axis, _NO_LIMIT)
 
 
-def _segment(robot: ElementTree.Element, name: str, segment: Segment) -> None:
+def _segment(robot: ElementTree.Element, name: str, segment: Segment, collides: bool) -> None:
     link = ElementTree.SubElement(robot, "link", name=name)
     inertial = ElementTree.SubElement(link, "inertial")
     ElementTree.SubElement(inertial, "origin", xyz=_text(*segment.center_of_mass), rpy="0 0 0")
@@ -63,19 +64,19 @@ def _segment(robot: ElementTree.Element, name: str, segment: Segment) -> None:
     xx, yy, zz = (_text(moment) for moment in segment.inertia)
     ElementTree.SubElement(inertial, "inertia", ixx=xx, iyy=yy, izz=zz, ixy="0", ixz="0", iyz="0")
     if segment.shape is not None:
-        visual = ElementTree.SubElement(link, "visual")
-        _shape(visual, segment.shape)
+        for role in ("visual", "collision") if collides else ("visual",):
+            _shape(ElementTree.SubElement(link, role), segment.shape)
 
 
-def _shape(visual: ElementTree.Element, shape: BoxShape | CapsuleShape) -> None:
-    geometry = ElementTree.SubElement(visual, "geometry")
+def _shape(role: ElementTree.Element, shape: BoxShape | CapsuleShape) -> None:
+    geometry = ElementTree.SubElement(role, "geometry")
     if isinstance(shape, BoxShape):
-        ElementTree.SubElement(visual, "origin", xyz=_text(*shape.position), rpy="0 0 0")
+        ElementTree.SubElement(role, "origin", xyz=_text(*shape.position), rpy="0 0 0")
         ElementTree.SubElement(geometry, "box", size=_text(*shape.size))
         return
     middle = [(start + end) / 2 for start, end in zip(shape.start, shape.end, strict=True)]
     x, y, z = (end - start for start, end in zip(shape.start, shape.end, strict=True))
-    ElementTree.SubElement(visual, "origin", xyz=_text(*middle), rpy=_text(0.0, atan2(hypot(x, y), z), atan2(y, x)))
+    ElementTree.SubElement(role, "origin", xyz=_text(*middle), rpy=_text(0.0, atan2(hypot(x, y), z), atan2(y, x)))
     ElementTree.SubElement(geometry, "capsule", radius=_text(shape.radius), length=_text(dist(shape.start, shape.end)))
 
 

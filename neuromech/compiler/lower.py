@@ -51,7 +51,8 @@ def lower(graph: ModelGraph) -> Program:
     tree = lower_tree(graph.body) if graph.body else None
     elements = muscles(graph)
     if tree is not None:
-        body_signals(tree, layout, integers, _tracked(graph))
+        pendulums = [element.name for element in graph.elements("pendulum")]
+        body_signals(tree, layout, integers, _tracked(graph), pendulums)
         push_signals(graph, layout)
         muscle_signals(elements, layout, header)
         force_slots(elements, layout, integers)

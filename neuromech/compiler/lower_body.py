@@ -1,6 +1,6 @@
 """Body and its signals → sections of the buffers, and the tree for the kinematics."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from math import inf
 
 import numpy as np
@@ -17,10 +17,13 @@ SEGMENT_SIGNALS = (
     *("x", "y", "z", "roll", "pitch", "yaw", "velocity_x", "velocity_y", "velocity_z"),
     *("angular_velocity_x", "angular_velocity_y", "angular_velocity_z"),
 )
+WEIGHT_SIGNALS = ("x", "y", "z", "velocity_x", "velocity_y", "velocity_z", "force_x", "force_y", "force_z")
 _ROOT_STATE = 13
 
 
-def body_signals(tree: Tree, layout: Layout, integers: Buffer, tracked: Iterable[str]) -> None:
+def body_signals(
+    tree: Tree, layout: Layout, integers: Buffer, tracked: Iterable[str], pendulums: Sequence[str]
+) -> None:
     """Place the state that an engine fills, the torques, contact centres and the segments that are looked at."""
     start = layout.signal_count
     n, m = len(tree.joints), len(tree.contacts)
@@ -30,7 +33,11 @@ def body_signals(tree: Tree, layout: Layout, integers: Buffer, tracked: Iterable
         layout.signals[f"{joint}.angle"] = start + i
         layout.signals[f"{joint}.velocity"] = start + n + i
     contact = start + 2 * n + _ROOT_STATE
-    header["torque"] = torque = contact + 3 * m
+    weight = contact + 3 * m
+    for i, name in enumerate(pendulums):
+        for k, quantity in enumerate(WEIGHT_SIGNALS):
+            layout.signals[f"{name}.{quantity}"] = weight + len(WEIGHT_SIGNALS) * i + k
+    header["torque"] = torque = weight + len(WEIGHT_SIGNALS) * len(pendulums)
     header["point"] = point = torque + n
     for i, joint in enumerate(tree.joints):
         layout.signals[f"{joint}.torque"] = torque + i

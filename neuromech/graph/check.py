@@ -22,6 +22,12 @@ from neuromech.graph.checks.paths import (
     path_crosses_no_joint,
     path_turns_back,
 )
+from neuromech.graph.checks.pendulums import (
+    hinge_engine_knows_no_pendulum,
+    pendulum_after_the_end,
+    pendulum_in_the_body,
+    pendulum_without_place,
+)
 from neuromech.graph.checks.populations import (
     too_few_senders,
     too_many_synapses,
@@ -68,6 +74,8 @@ VALUE_RULES: tuple[Rule, ...] = (
     wave_without_length,
     one_distribution,
     push_after_the_end,
+    pendulum_without_place,
+    pendulum_after_the_end,
     series_that_never_advances,
     delay_below_step,
     varied_parameter,
@@ -83,6 +91,7 @@ RULES: tuple[Rule, ...] = (
     hinge_engine_knows_no_contact,
     hinge_engine_knows_no_ground,
     hinge_engine_knows_no_push,
+    hinge_engine_knows_no_pendulum,
     engine_refusal,
     synapse_defined_twice,
     port_missing,
@@ -102,6 +111,7 @@ RULES: tuple[Rule, ...] = (
     angle_starts_outside_range,
     two_heights,
     start_below_ground,
+    pendulum_in_the_body,
 )
 
 

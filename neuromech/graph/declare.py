@@ -37,6 +37,7 @@ def declared(document: Document) -> tuple[list[Element], list[Problem]]:
     protocol = document.experiment.protocol
     elements += _of_map("", "protocol.pushes", "push", protocol.pushes)
     elements += _of_map("", "protocol.push_series", "push", protocol.push_series)
+    elements += _of_map("", "world.pendulums", "pendulum", document.experiment.world.pendulums)
     try:
         elements += _of_body_file(document)
     except ValueError as error:

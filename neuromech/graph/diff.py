@@ -10,7 +10,7 @@ from neuromech.graph.values import values
 
 ABSENT = "–"
 _PARTS_OF_BODY = frozenset({"segments", "joints", "contacts"})
-_ELEMENTS_OF_PROTOCOL = frozenset({"pushes", "push_series"})
+_ELEMENTS = frozenset({"pushes", "push_series", "pendulums"})
 _SECTIONS = ("protocol", "solver", "world")
 
 
@@ -133,7 +133,7 @@ def _settings(graph: ModelGraph) -> dict[str, str]:
     for name, parameter in experiment.parameters.items():
         found |= values(parameter, f"parameters.{name}")
     for section in _SECTIONS:
-        found |= values(getattr(experiment, section), section, _ELEMENTS_OF_PROTOCOL)
+        found |= values(getattr(experiment, section), section, _ELEMENTS)
     if experiment.body is not None:
         found |= values(experiment.body, "body", _PARTS_OF_BODY)
     return found

@@ -29,23 +29,40 @@ CONTACT_OUTPUTS = (
     Port("z", "m"),
 )
 PUSH_OUTPUTS = (Port("force_x", "N"), Port("force_y", "N"), Port("force_z", "N"))
+PENDULUM_OUTPUTS = (
+    Port("x", "m"),
+    Port("y", "m"),
+    Port("z", "m"),
+    Port("velocity_x", "m/s"),
+    Port("velocity_y", "m/s"),
+    Port("velocity_z", "m/s"),
+    Port("force_x", "N"),
+    Port("force_y", "N"),
+    Port("force_z", "N"),
+)
 PATH_OUTPUTS = (Port("length", "mm"), Port("velocity", "mm/s"))
+_OUTPUTS = {
+    "segment": SEGMENT_OUTPUTS,
+    "contact": CONTACT_OUTPUTS,
+    "push": PUSH_OUTPUTS,
+    "pendulum": PENDULUM_OUTPUTS,
+}
 
 
 def outputs(element: Element) -> tuple[Port, ...]:
     """Return what can be read from an element: outputs of its equations, then quantities of the mechanics.
 
     The unit of a port is the one to show; values are in SI units everywhere. Of a slide joint, `angle` is the
-    displacement and `torque` the force.
+    displacement and `torque` the force; of a pendulum, `force` is that on the segment that it hits.
     """
     spec = element.spec
     if isinstance(spec, Component):
         return spec.outputs + (PATH_OUTPUTS if element.family == "muscle" else ())
     if isinstance(spec, Joint):
         return HINGE_OUTPUTS if spec.kind == "hinge" else SLIDE_OUTPUTS
-    return {"segment": SEGMENT_OUTPUTS, "contact": CONTACT_OUTPUTS, "push": PUSH_OUTPUTS}[element.family]
+    return _OUTPUTS[element.family]
 
 
 def inputs(element: Element) -> tuple[Port, ...]:
-    """Return the input ports of an element; segments, joints, contacts and pushes have none."""
+    """Return the input ports of an element; segments, joints, contacts, pushes and pendulums have none."""
     return element.spec.inputs if isinstance(element.spec, Component) else ()

@@ -9,11 +9,14 @@ import networkx as nx
 from neuromech.components.base import Component
 from neuromech.spec.document import Document
 from neuromech.spec.model import Contact, Joint, Population, Projection, Root, Segment
+from neuromech.spec.pendulum import Pendulum
 from neuromech.spec.pushes import Push, PushSeries
 from neuromech.spec.world import World
 
-NodeFamily = Literal["neuron", "population", "drive", "muscle", "sensor", "joint", "segment", "contact", "push"]
-Spec = Component | Segment | Joint | Contact | Push | PushSeries
+NodeFamily = Literal[
+    "neuron", "population", "drive", "muscle", "sensor", "joint", "segment", "contact", "push", "pendulum"
+]
+Spec = Component | Segment | Joint | Contact | Push | PushSeries | Pendulum
 EdgeKind = Literal["synapse", "projection", "wire", "crossing", "structure"]
 
 
@@ -24,7 +27,7 @@ class Element:
     Args:
         name: qualified name, which is the node itself.
         family: what kind of thing it is.
-        spec: the component, or the segment, joint, contact or push as written; of a population, its neuron.
+        spec: the component, or the segment, joint, contact, push or pendulum as written; of a population, its neuron.
         path: dotted path in the document.
         scope: qualified name of the instance that holds it, empty for the document.
         population: size and variation of a population, None for anything else.

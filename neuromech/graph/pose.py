@@ -1,4 +1,4 @@
-"""Where the contacts of a body are at time zero, and how far from the ground. In plain floats: rules ask for it."""
+"""Where segments and contacts are at time zero, and how far contacts are from the ground. In plain floats."""
 
 from math import cos, hypot, sin, sqrt
 from typing import Final
@@ -16,17 +16,23 @@ _ALLOWED: Final = 0.1
 _SHARES: Final = tuple(k / 10.0 for k in range(-10, 11))
 
 
-def contact_centers(body: BodyModel) -> dict[str, Vector]:
-    """Return the centre of each contact sphere in the world in m, at the initial angles and the first root pose."""
+def frames(body: BodyModel) -> dict[str, tuple[Matrix, Vector]]:
+    """Return orientation and origin in m of each segment, at the initial angles and the first root pose."""
     x, y, z = map(float, body.root.position)
-    frames = {body.root_segment: (_root_rotation(*map(float, body.root.orientation)), (x, y, z))}
+    found = {body.root_segment: (_root_rotation(*map(float, body.root.orientation)), (x, y, z))}
     for name in body.joints:
         joint = body.joints[name]
-        frames[joint.child] = _moved(*frames[joint.parent], joint)
+        found[joint.child] = _moved(*found[joint.parent], joint)
+    return found
+
+
+def contact_centers(body: BodyModel) -> dict[str, Vector]:
+    """Return the centre of each contact sphere in the world in m, at the initial angles and the first root pose."""
+    placed = frames(body)
     centers = {}
     for name, contact in body.contacts.items():
-        rotation, origin = frames[contact.segment]
-        centers[name] = _added(origin, _turned(rotation, contact.position))
+        rotation, origin = placed[contact.segment]
+        centers[name] = added(origin, turned(rotation, contact.position))
     return centers
 
 
@@ -77,13 +83,13 @@ def _moved(rotation: Matrix, origin: Vector, joint: Joint) -> tuple[Matrix, Vect
     angle = float(joint.initial_angle)
     at = (float(joint.position[0]), float(joint.position[1]), float(joint.position[2]))
     if joint.kind == "slide":
-        return rotation, _added(origin, _turned(rotation, _added(at, (angle * x, angle * y, angle * z))))
-    return _product(rotation, _rotation(x, y, z, angle)), _added(origin, _turned(rotation, at))
+        return rotation, added(origin, turned(rotation, added(at, (angle * x, angle * y, angle * z))))
+    return _product(rotation, _rotation(x, y, z, angle)), added(origin, turned(rotation, at))
 
 
 def _root_rotation(roll: float, pitch: float, yaw: float) -> Matrix:
-    turned = _product(_rotation(0.0, 0.0, 1.0, yaw), _rotation(0.0, 1.0, 0.0, pitch))
-    return _product(turned, _rotation(1.0, 0.0, 0.0, roll))
+    heading = _product(_rotation(0.0, 0.0, 1.0, yaw), _rotation(0.0, 1.0, 0.0, pitch))
+    return _product(heading, _rotation(1.0, 0.0, 0.0, roll))
 
 
 def _rotation(x: float, y: float, z: float, angle: float) -> Matrix:
@@ -98,14 +104,16 @@ def _rotation(x: float, y: float, z: float, angle: float) -> Matrix:
 
 
 def _product(one: Matrix, other: Matrix) -> Matrix:
-    first, second, third = (_turned(one, column) for column in zip(*other, strict=True))
+    first, second, third = (turned(one, column) for column in zip(*other, strict=True))
     return tuple(zip(first, second, third, strict=True))  # type: ignore[return-value]
 
 
-def _turned(rotation: Matrix, vector: Vector) -> Vector:
+def turned(rotation: Matrix, vector: Vector) -> Vector:
+    """Return a vector turned by a rotation."""
     x, y, z = (row[0] * vector[0] + row[1] * vector[1] + row[2] * vector[2] for row in rotation)
     return x, y, z
 
 
-def _added(one: Vector, other: Vector) -> Vector:
+def added(one: Vector, other: Vector) -> Vector:
+    """Return the sum of two vectors."""
     return one[0] + other[0], one[1] + other[1], one[2] + other[2]

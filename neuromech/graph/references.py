@@ -9,6 +9,7 @@ from neuromech.components.paths import ConstantMomentArms, LeverArms, PathPoint,
 from neuromech.graph.model import Element, Spec
 from neuromech.graph.names import Resolver, wanted
 from neuromech.spec.model import Contact, Joint
+from neuromech.spec.pendulum import Pendulum
 from neuromech.spec.pushes import Push, PushSeries
 
 _JOINT = wanted("joint")
@@ -26,7 +27,7 @@ def _resolved_spec(element: Element, resolver: Resolver) -> Spec:
     if isinstance(spec, Joint):
         names = {field: _segment(getattr(spec, field), field, element, resolver) for field in ("parent", "child")}
         return spec.model_copy(update=names)
-    if isinstance(spec, Contact | Push | PushSeries):
+    if isinstance(spec, Contact | Push | PushSeries | Pendulum):
         return spec.model_copy(update={"segment": _segment(spec.segment, "segment", element, resolver)})
     if isinstance(spec, Component):
         return spec.model_copy(update=_component_fields(spec, element, resolver))

@@ -13,19 +13,24 @@ FINISHED, BAD_TORQUE, FELL, BAD_STATE, ENGINE_FAILED = range(5)
 
 _SOURCE = '''"""Generated loop for {native} around {step}."""
 
-from {native} import push, read, step
+from {native} import place, push, read, step
 from {step} import BODY, CONTACTS, JOINTS, TORQUE, advance, tick
 
 from neuromech.compiler.ground import height_below
 from neuromech.compiler.numerics import compiled
+from neuromech.compiler.pendulums import PLACE, lead
 from neuromech.compiler.pushes import acting, share_of_step, show_pushes
 
 
 @compiled
-def run(first, last, dt, x, s, u, p, F, I, R, T, D, engine, lowest, least_cosine, corners, steps, pushes, places, room):
+def run(first, last, dt, x, s, u, p, F, I, R, T, D, engine, lowest, least_cosine, surface, pushed, hanging, room):
     """Advance from body step `first` to `last`; return the step reached, why it ended, and which number is bad."""
     n, body = I[JOINTS], I[BODY]
-    state = s[body : body + 2 * n + 13 + 3 * I[CONTACTS]]
+    state = s[body : I[TORQUE]]
+    weights = state[2 * n + 13 + 3 * I[CONTACTS] :]
+    corners, steps = surface
+    pushes, places = pushed
+    pendulums, hit, now, gravity = hanging
     torque = s[I[TORQUE] : I[TORQUE] + n]
     for number in range(first, last):
         if read(engine, state) != 0:
@@ -46,6 +51,11 @@ def run(first, last, dt, x, s, u, p, F, I, R, T, D, engine, lowest, least_cosine
             if share > 0.0:
                 acting(share, pushes[k], places[k, 0], D[0], D[1], room)
                 push(engine, places[k, 0], room)
+        for k in range(hit.shape[0]):
+            weight, root = weights[9 * k : 9 * k + 9], state[2 * n + 7 : 2 * n + 13]
+            if lead(number, dt, gravity, pendulums[k], hit[k], now[k], weight, root, D[0], D[1], room):
+                place(engine, k, now[k, PLACE:])
+            push(engine, D[1].shape[0] + k, room)
         if step(engine, torque) != 0:
             return number, {failed}, 0
     return last, {finished}, 0

@@ -12,6 +12,7 @@ from neuromech.bodies.base import Body
 from neuromech.bodies.factory import open_body
 from neuromech.compiler.ground import Surface
 from neuromech.compiler.numerics import Floats
+from neuromech.compiler.pendulums import NO_PENDULUMS, PLACE, Pendulums, lead
 from neuromech.compiler.program import Memory, Program
 from neuromech.compiler.pushes import ACTING, NO_PUSHES, Pushes, acting, share_of_step, show_pushes
 from neuromech.errors import RunError
@@ -58,6 +59,7 @@ class _Run:
     checkpoint: Checkpoint | None
     pushes: Pushes
     surface: Surface
+    pendulums: Pendulums
     engine: str = "none"
     done: int = 0
     started: float = field(default_factory=time.perf_counter)
@@ -124,9 +126,10 @@ def simulate(
     memory = program.memory()
     memory.x[:] = initial_states(program, used_seed)
     pushes = NO_PUSHES if body is None else drawn_pushes(program, body, used_seed, ticks * program.tick)
+    pendulums = NO_PENDULUMS if body is None else Pendulums.of(body)
     surface = Surface.of(None if body is None else body.world.ground)
     recorder = Recorder(program, memory.I, ticks)
-    run = _Run(program, memory, recorder, ticks, used_seed, progress, checkpoint, pushes, surface)
+    run = _Run(program, memory, recorder, ticks, used_seed, progress, checkpoint, pushes, surface, pendulums)
     return run.recording(_with_body(run, body) if body is not None else _ended(run, _network))
 
 
@@ -221,9 +224,10 @@ def _native_loop(run: _Run, body: Body, native_module: str, native: tuple[Any, .
     memory, dt = run.memory, run.program.tick
     fall = _fall_rule(run, body)
     advance = compiled_loop(run.program, native_module).run
-    limits = (fall.height, fall.least_cosine, fall.surface.corners, fall.surface.steps)
-    pushes = (run.pushes.numbers, run.pushes.places, np.zeros(ACTING))
-    rest = (*memory.buffers, run.recorder.samples, memory.T, memory.D, native, *limits, *pushes)
+    limits = (fall.height, fall.least_cosine, (fall.surface.corners, fall.surface.steps))
+    hanging = (run.pendulums.numbers, run.pendulums.segments, run.pendulums.now, run.pendulums.gravity)
+    outside = ((run.pushes.numbers, run.pushes.places), hanging, np.zeros(ACTING))
+    rest = (*memory.buffers, run.recorder.samples, memory.T, memory.D, native, *limits, *outside)
 
     def chunk(last: int) -> Outcome | None:
         run.done, why, position = advance(run.done, last, dt, *rest)
@@ -261,6 +265,7 @@ def _method_loop(run: _Run, body: Body) -> Outcome | None:
             if bad >= 0:
                 return run.bad_state(bad)
             _push(run, body, number)
+            _lead_pendulums(run, body, number)
             body.step(torque)
             run.done = number + 1
         return None
@@ -276,6 +281,18 @@ def _push(run: _Run, body: Body, number: int) -> None:
         if share > 0.0:
             acting(share, push, segment, rotation, position, room)
             body.push(segment, room)
+
+
+def _lead_pendulums(run: _Run, body: Body, number: int) -> None:
+    rotation, position, *_ = run.memory.D
+    state, hanging, room = _body_state(run, body), run.pendulums, np.zeros(ACTING)
+    weights = state[body.layout.hanging].reshape(-1, 9)
+    root = state[body.layout.root_velocity]
+    for k, (pendulum, segment) in enumerate(zip(hanging.numbers, hanging.segments, strict=True)):
+        now, weight, gravity, dt = hanging.now[k], weights[k], hanging.gravity, run.program.tick
+        if lead(number, dt, gravity, pendulum, segment, now, weight, root, rotation, position, room):
+            body.place(k, now[PLACE:])
+        body.push(len(position) + k, room)
 
 
 def _adaptive_advance(program: Program, memory: Memory) -> Callable[..., int]:

@@ -6,6 +6,7 @@ from typing import Annotated
 from pydantic import Field
 
 from neuromech.components.base import SpecModel
+from neuromech.spec.pendulum import Pendulum
 from neuromech.spec.pushes import RandomLength
 from neuromech.spec.scalars import Name
 from neuromech.units import ACCELERATION, ANGLE, DIMENSIONLESS, LENGTH, Length, Quantity, quantity
@@ -84,7 +85,8 @@ class Ground(SpecModel):
 
 
 class World(SpecModel):
-    """Gravity (downwards) and ground."""
+    """Gravity (downwards), ground, and weights on strings."""
 
     gravity: Annotated[Quantity, ACCELERATION.non_negative] = quantity("9.81 m/s^2")
     ground: Ground | None = None
+    pendulums: dict[Name, Pendulum] = {}
