@@ -12,13 +12,17 @@ from neuromech.analyse.measures import MeasuredValue
 from neuromech.errors import MeasureError
 from neuromech.spec.model import Claim
 
+# 0.9 of 10 values are 9 of them, whatever their product is in binary.
+_ROUNDING = 1e-9
+
 
 @dataclass(frozen=True, slots=True)
 class Measured:
     """Median, smallest and largest of n measured values, in the unit of the expectation.
 
-    For texts, `median` is the most frequent one, `min` and `max` the first and last in the alphabet. Where some runs
-    gave a number and others could not be measured, `median` says how many could not and why.
+    For texts, `median` is the most frequent one, with its number where there are others, `min` and `max` the first and
+    last in the alphabet. Where some runs gave a number and others could not be measured, `median` says how many could
+    not and why.
     """
 
     median: Value
@@ -48,8 +52,8 @@ class Verdict:
 def judge(spec: str, identifier: str, claim: Claim, runs: Sequence[Sequence[MeasuredValue]]) -> Verdict:
     """Judge a claim by what was measured.
 
-    The claim is met when every value of every seed satisfies the expectation; a run that could not be measured never
-    does. With `sweep`, what is judged is the difference between successive values of the swept path, seed by seed (of a
+    The claim is met when every value of every seed satisfies the expectation, or the claim's `share` of them; a run that
+    could not be measured never does. With `sweep`, what is judged is the difference between successive values of the swept path, seed by seed (of a
     measure of text, each text); with `compare`, the ratio of the claim's own run to the one that it is compared with.
 
     Args:
@@ -67,16 +71,16 @@ def judge(spec: str, identifier: str, claim: Claim, runs: Sequence[Sequence[Meas
         expectation = Expectation(claim.expected, unit)
     except MeasureError as error:
         raise MeasureError(f"claims.{identifier}.expected  {error}") from error
-    met = all(expectation.satisfied(value) for value in values)
+    satisfied = sum(expectation.satisfied(value) for value in values)
     return Verdict(
         spec,
         identifier,
         claim.claim,
         claim.source,
         claim.published,
-        _preface(claim, unit) + expectation.text(),
+        _preface(claim, unit) + expectation.text() + _share(claim),
         _summary([expectation.show(value) for value in values]),
-        "met" if met else "not met",
+        "met" if satisfied >= float(claim.share) * len(values) - _ROUNDING else "not met",
     )
 
 
@@ -111,12 +115,18 @@ def _preface(claim: Claim, unit: str | None) -> str:
     return "each step " if claim.sweep and unit is not None else ""
 
 
+def _share(claim: Claim) -> str:
+    return f", in {100 * float(claim.share):g} % of the runs" if float(claim.share) < 1.0 else ""
+
+
 def _summary(values: Sequence[Value]) -> Measured:
     numbers = [value for value in values if not isinstance(value, str)]
     texts = [value for value in values if isinstance(value, str)]
     if not texts:
         return Measured(median(numbers), min(numbers), max(numbers), len(values))
     commonest, count = Counter(texts).most_common(1)[0]
+    if not numbers and count == len(values):
+        return Measured(commonest, commonest, commonest, count)
     if not numbers:
-        return Measured(commonest, min(texts), max(texts), len(values))
+        return Measured(f"{commonest} in {count} of {len(values)}", min(texts), max(texts), len(values))
     return Measured(f"{commonest} in {count} of {len(values)}", min(numbers), max(numbers), len(values))

@@ -300,6 +300,7 @@ class Claim(SpecModel):
 
     `set` changes the document for this claim alone, `seeds` repeats it, `sweep` repeats it over values of one path and
     judges the successive differences, `compare` judges the ratio of the measured value to that of a changed document.
+    `share` says in which part of the judged values the expectation must hold.
     """
 
     claim: str
@@ -309,6 +310,7 @@ class Claim(SpecModel):
     source: str
     set: dict[str, Written | bool] = {}
     seeds: Annotated[int, Field(ge=1, strict=True)] = 1
+    share: Annotated[Quantity, DIMENSIONLESS.within(0.0, 1.0)] = quantity("1")
     sweep: dict[str, list[Written]] = {}
     compare: dict[str, Written | bool] = {}
     compare_with: str | None = None

@@ -79,7 +79,7 @@ def test_texts_must_all_be_equal_and_the_most_frequent_is_shown():
     assert judge("s", "i", trot, [texts("trot", "trot", "trot")]).verdict == "met"
     verdict = judge("s", "i", trot, [texts("trot", "pace", "trot")])
     assert verdict.verdict == "not met"
-    assert (verdict.measured.median, verdict.measured.min, verdict.measured.n) == ("trot", "pace", 3)
+    assert (verdict.measured.median, verdict.measured.min, verdict.measured.n) == ("trot in 2 of 3", "pace", 3)
 
 
 @pytest.mark.parametrize("expected", [{"at_most": "1000 s"}, {"at_least": "-1000 s"}])
@@ -177,3 +177,13 @@ def test_claims_are_checked_before_a_run():
         "n.yaml:3:5  claims.text.expected  this measure gives a text. Hint: use 'equals'",
         "n.yaml:3:5  claims.ratio.expected  a measure that gives a text cannot be compared.",
     ]
+
+
+def test_a_share_of_the_runs_is_enough_where_the_claim_says_so():
+    nine, eight = texts(*["finished"] * 9, "fell"), texts(*["finished"] * 8, "fell", "fell")
+    lenient = claim({"equals": "finished"}, kind="outcome", share=0.9)
+    verdict = judge("cat", "walks", lenient, [nine])
+    assert (verdict.verdict, verdict.measured.median) == ("met", "finished in 9 of 10")
+    assert verdict.expected == "finished, in 90 % of the runs"
+    assert judge("cat", "walks", lenient, [eight]).verdict == "not met"
+    assert judge("cat", "walks", claim({"equals": "finished"}, kind="outcome"), [nine]).verdict == "not met"
