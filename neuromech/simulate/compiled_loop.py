@@ -1,6 +1,7 @@
 """The loop over body steps for engines with compiled functions: reading, stepping and recording without Python."""
 
 import importlib
+import inspect
 from functools import cache
 from pathlib import Path
 from types import ModuleType
@@ -8,6 +9,8 @@ from types import ModuleType
 from neuromech.compiler.cache import import_file, module_file
 from neuromech.compiler.program import Program
 from neuromech.components.base import Component
+from neuromech.graph.swing import aimed
+from neuromech.graph.terrain import ground_height
 
 FINISHED, BAD_TORQUE, FELL, BAD_STATE, ENGINE_FAILED = range(5)
 
@@ -81,4 +84,5 @@ def _loop_file(step: str, _folder: Path, native_module: str, kinds: tuple[type[C
         failed=ENGINE_FAILED,
     )
     engine = importlib.import_module(native_module)
-    return module_file(source, kinds, [Path(str(engine.__file__))])
+    files = (str(engine.__file__), inspect.getfile(ground_height), inspect.getfile(aimed))
+    return module_file(source, kinds, map(Path, files))
