@@ -52,9 +52,10 @@ class Verdict:
 def judge(spec: str, identifier: str, claim: Claim, runs: Sequence[Sequence[MeasuredValue]]) -> Verdict:
     """Judge a claim by what was measured.
 
-    The claim is met when every value of every seed satisfies the expectation, or the claim's `share` of them; a run that
-    could not be measured never does. With `sweep`, what is judged is the difference between successive values of the swept path, seed by seed (of a
-    measure of text, each text); with `compare`, the ratio of the claim's own run to the one that it is compared with.
+    The claim is met when every value of every seed satisfies the expectation, or the claim's `share` of them; a run
+    that could not be measured never does. With `sweep`, what is judged is the difference between successive values of
+    the swept path, seed by seed (of a measure of text, each text); with `compare`, the ratio of the claim's own run to
+    the one that it is compared with.
 
     Args:
         spec: name of the document.
