@@ -7,9 +7,9 @@ PEERS := .venv-bench
 
 .PHONY: walk human test check verify gallery bench test-lowest clean
 
-walk: $(VENV)/.installed  ## validate and run the suspended cat: figures, results, claims (met or not)
+walk: $(VENV)/.installed  ## validate all documents and walk the cat: figures, results, claims (met or not)
 	$(BIN)/neuromech validate specs
-	$(BIN)/neuromech run specs/cat/suspended.yaml --out results/suspended || test $$? -eq 4
+	$(BIN)/neuromech run specs/cat/walk.yaml --out results/walk || test $$? -eq 4
 
 human: $(VENV)/.installed  ## the planar human walks on reflexes: figures, results, claims (met or not)
 	$(BIN)/python -m pip install --quiet --editable '.[mujoco]'
