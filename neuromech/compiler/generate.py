@@ -79,7 +79,7 @@ def _imports(shape: Shape) -> str:
         "from neuromech.compiler.dynamics import mass_matrix",
         "from neuromech.compiler.kinematics import contact_positions, forward_kinematics, roll_pitch_yaw",
         "from neuromech.compiler.kinematics import segment_velocities, world_axis",
-        "from neuromech.compiler.numerics import compiled, elementwise, equation, interpolate, relaxed",
+        "from neuromech.compiler.numerics import compiled, copy_from, elementwise, equation, interpolate, relaxed",
         "from neuromech.compiler.numerics import sum_at, weighted_sum_at",
         "from neuromech.compiler.paths import LEVER_ARMS, STRAIGHT_LINES, lever, straight_path",
         "from neuromech.compiler.team import DONE, FIRST, HELPERS, LAST, NEXT, ORDER, PART, STOP",

@@ -32,6 +32,8 @@ from neuromech.graph.model import BodyModel, ModelGraph
 from neuromech.graph.signals import matching, signals, sizes, split
 
 _STAGE_ARRAYS = 4
+# Number of the array of inputs among those that are recorded from; behind it come the means.
+_INPUTS = 2
 # Synapses from which on a second thread makes a step shorter (docs/performance.md).
 _BREAK_EVEN = 300_000
 
@@ -146,12 +148,22 @@ def _record_sections(graph: ModelGraph, layout: Layout, integers: Buffer, tick: 
     starts = [0, *np.cumsum([len(some) for some in names], dtype=int).tolist()]
     integers.add("group_start", starts)
     integers.add("group_row", [0] * len(names))
-    slots = [layout.slot(name) for some in names for name in some]
-    integers.add("slot", slots)
-    outputs = layout.state_count + layout.signal_count
-    integers.header["inputs_recorded"] = int(any(slot >= outputs for slot in slots))
+    _stretches(layout, [layout.slot(name) for some in names for name in some], starts, integers)
     integers.add("mean_first", [some.start for some in layout.means()])
     integers.add("mean_count", [len(some) for some in layout.means()])
+
+
+def _stretches(layout: Layout, slots: list[int], starts: list[int], integers: Buffer) -> None:
+    """Write the places of recorded signals, and where stretches begin that stand in one array: x, s, u or the means."""
+    ends = np.cumsum([layout.state_count, layout.signal_count, layout.input_count])
+    arrays = np.searchsorted(ends, slots, side="right")
+    integers.add("place", np.asarray(slots, dtype=np.int64) - np.array([0, *ends])[arrays])
+    changes = np.flatnonzero(np.diff(arrays)) + 1
+    stretches = np.unique([*starts, *changes])
+    integers.add("stretch_start", stretches)
+    integers.add("stretch_array", arrays[stretches[:-1]])
+    integers.add("group_stretch", np.searchsorted(stretches, starts))
+    integers.header["inputs_recorded"] = int((arrays >= _INPUTS).any())
 
 
 def recorded(patterns: Iterable[str], graph: ModelGraph) -> list[str]:

@@ -82,6 +82,13 @@ def weighted_sum_at(weights: Floats, signals: Floats, places: Places) -> float:
 
 
 @equation
+def copy_from(array: Floats, places: Integers, target: Floats) -> None:
+    """Fill `target` with the numbers at some places of an array."""
+    for k in range(len(target)):
+        target[k] = array[places[k]]
+
+
+@equation
 def relaxed(value: float, drive: float, rate: float, dt: float) -> float:
     """Return x(t + dt) of dx/dt = drive − rate x with both held: the exact solution, also where rate is zero."""
     exponent = rate * dt

@@ -196,24 +196,27 @@ def is_due(tick, I):
 
 @equation
 def record(tick, x, s, u, I, R):
-    """Copy the signals of every record group that is due. A slot counts through states, signals, inputs and means."""
-    states, signals, inputs = x.shape[0], s.shape[0], u.shape[0]
+    """Copy the signals of every record group that is due, one stretch of signals that stand in one array at a time."""
     for group in range(<groups>):
         every = I[<group_every> + group]
         if tick % every:
             continue
-        first, last = I[<group_start> + group], I[<group_start> + group + 1]
-        row = I[<group_row> + group] + (tick // every) * (last - first)
-        for k in range(first, last):
-            slot = I[<slot> + k]
-            if slot < states:
-                R[row + k - first] = x[slot]
-            elif slot < states + signals:
-                R[row + k - first] = s[slot - states]
-            elif slot < states + signals + inputs:
-                R[row + k - first] = u[slot - states - signals]
+        start, end = I[<group_start> + group], I[<group_start> + group + 1]
+        row = I[<group_row> + group] + (tick // every) * (end - start) - start
+        for k in range(I[<group_stretch> + group], I[<group_stretch> + group + 1]):
+            first, last = I[<stretch_start> + k], I[<stretch_start> + k + 1]
+            place = I[<place> + first : <place> + last]
+            samples = R[row + first : row + last]
+            array = I[<stretch_array> + k]
+            if array == 0:
+                copy_from(x, place, samples)
+            elif array == 1:
+                copy_from(s, place, samples)
+            elif array == 2:
+                copy_from(u, place, samples)
             else:
-                R[row + k - first] = mean(slot - states - signals - inputs, x, s, u, I)
+                for h in range(last - first):
+                    samples[h] = mean(place[h], x, s, u, I)
 
 
 @equation

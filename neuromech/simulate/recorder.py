@@ -11,6 +11,7 @@ from neuromech.compiler.program import Program
 from neuromech.graph.signals import signals, split
 from neuromech.simulate.anatomy import Anatomy
 from neuromech.simulate.recording import GroupData, Outcome, Provenance, Recording
+from neuromech.simulate.sample_memory import borrowed
 from neuromech.units import si_unit
 
 _PACKAGES = ("numpy", "scipy", "numba", "pybullet")
@@ -32,7 +33,7 @@ class Recorder:
             self._start[name] = start
             offsets[program.header["group_row"] + k] = start
             start += self._rows(name, ticks) * len(self._names[name])
-        self.samples: Floats = np.empty(start)
+        self.samples: Floats = borrowed(start)
 
     def _rows(self, name: str, ticks: int) -> int:
         return -(-ticks // self._every[name])
@@ -64,6 +65,11 @@ class Recorder:
         values = self.samples[start : start + rows * len(names)].reshape(rows, len(names))
         time = np.arange(rows, dtype=np.float64) * (self._every[name] * self._program.tick)
         return GroupData(time, tuple(names), values, tuple(si_unit(units[_listed(signal)]) for signal in names))
+
+
+@cache
+def _version(package: str) -> str:
+    return version(package)
 
 
 def _listed(name: str) -> str:

@@ -225,9 +225,9 @@ def _slice(columns: list[int]) -> slice | list[int]:
 def _variables(data: GroupData) -> dict[tuple[str, str, str], list[int]]:
     """Return {(quantity, unit, variable name): columns}; the unit joins the name where one quantity has several."""
     quantities = [name.rpartition(".")[2] for name in data.names]
-    units_of = {
-        quantity: {u for q, u in zip(quantities, data.units, strict=True) if q == quantity} for quantity in quantities
-    }
+    units_of: dict[str, set[str]] = {}
+    for quantity, unit in zip(quantities, data.units, strict=True):
+        units_of.setdefault(quantity, set()).add(unit)
     found: dict[tuple[str, str, str], list[int]] = {}
     for column, (quantity, unit) in enumerate(zip(quantities, data.units, strict=True)):
         suffix = "_" + _word(unit) if len(units_of[quantity]) > 1 else ""
@@ -246,13 +246,12 @@ def _index(tree: xr.DataTree) -> dict[str, _Column]:
         data = node.to_dataset()
         time = np.asarray(data["time"].values)
         step = float((time[-1] - time[0]) / (len(time) - 1)) if len(time) > 1 else np.inf
-        columns = {
-            f"{element}.{variable.attrs['quantity']}": _Column(
-                time, variable.values, index, str(variable.attrs["units"]), step
-            )
-            for name, variable in data.data_vars.items()
-            for index, element in enumerate(data[f"{name}_element"].values)
-        }
+        columns: dict[str, _Column] = {}
+        for name in data.data_vars:
+            variable = data.variables[name]
+            values, unit, quantity = variable.values, str(variable.attrs["units"]), variable.attrs["quantity"]
+            for index, element in enumerate(data.variables[f"{name}_element"].values.tolist()):
+                columns[f"{element}.{quantity}"] = _Column(time, values, index, unit, step)
         for signal in json.loads(node.attrs["signals"]):
             if signal not in found or step < found[signal].step:
                 found[signal] = columns[signal]
