@@ -55,20 +55,26 @@ def observer_implicit(
 ) -> None:
     """Replace `torque` (n,) by τ − dt B a, with (M + dt B) a = τ − τ_last + M (v − v_last)/dt.
 
-    M (n, n) is `mass`, B (n, n) `damping`, of which the lower triangles from column `first` (n,) on are read; M and
-    `last_velocity` are overwritten. M a_last − τ_last is what acted on the joints from outside during the last step
-    (contact, gravity, coupling), so that a static load causes no bias.
+    M (n + r, n + r) is `mass`, whose last r rows are those of a root that moves and feels no torque; B (n, n) is
+    `damping`. Their lower triangles are read, from column `first` (n + r,) on; M and `last_velocity` are overwritten.
+    M a_last − τ_last is what acted on the joints from outside during the last step (contact, gravity, coupling), so
+    that a static load causes no bias. What is solved for is a − (v − v_last)/dt, which needs no product with M.
     """
     n = torque.shape[0]
     for i in range(n):
         last_velocity[i] = (velocity[i] - last_velocity[i]) / dt
-        acceleration[i] = torque[i] - last_torque[i] + mass[i, i] * last_velocity[i]
+        acceleration[i] = torque[i] - last_torque[i] - dt * damping[i, i] * last_velocity[i]
         mass[i, i] += dt * damping[i, i]
         for j in range(first[i], i):
-            acceleration[i] += mass[i, j] * last_velocity[j]
-            acceleration[j] += mass[i, j] * last_velocity[i]
-            mass[i, j] += dt * damping[i, j]
+            drag = dt * damping[i, j]
+            acceleration[i] -= drag * last_velocity[j]
+            acceleration[j] -= drag * last_velocity[i]
+            mass[i, j] += drag
+    for i in range(n, acceleration.shape[0]):
+        acceleration[i] = 0.0
     solve_symmetric(mass, first, acceleration)
+    for i in range(n):
+        acceleration[i] += last_velocity[i]
     for i in range(n):
         torque[i] -= dt * damping[i, i] * acceleration[i]
         for j in range(first[i], i):

@@ -5,7 +5,7 @@ Everything is expressed in world axes about the origin of the root frame, so tha
 Source: Featherstone 2008, Rigid Body Dynamics Algorithms, section 6.2, doi:10.1007/978-1-4899-7560-7.
 """
 
-from math import sqrt
+import numpy as np
 
 from neuromech.compiler.kinematics import world_axis
 from neuromech.compiler.numerics import Floats, Integers, compiled
@@ -20,6 +20,7 @@ from neuromech.compiler.tree import (
     KIND,
     MASS,
     PARENT,
+    Tree,
 )
 
 # Columns of a work row: mass, mass × centre (3), inertia xx yy zz xy xz yz, joint motion (angular, linear), and the
@@ -31,13 +32,13 @@ _FORCE = 16
 
 
 @compiled
-def mass_matrix(
+def inertia_of_all(
     topology: Integers, geometry: Floats, root: int, rotation: Floats, position: Floats, work: Floats, inertia: Floats
 ) -> None:
-    """Fill the matrix that maps joint accelerations to joint torques when nothing else acts, armature included.
+    """Fill the matrix that maps accelerations of joints and root to what acts on them, armature included.
 
-    For a root that moves this is the Schur complement that eliminates the root's motion. A planar root must be turned
-    about y only.
+    The root's rows come last, so that limbs that only the root joins do not touch each other when the matrix is
+    factorised from the front. A planar root must be turned about y only.
 
     Args:
         topology: see `Tree`.
@@ -46,7 +47,9 @@ def mass_matrix(
         rotation: from `forward_kinematics`.
         position: from `forward_kinematics`.
         work: from `Tree.new_work`.
-        inertia: filled; (joints, joints) in kg m².
+        inertia: its lower triangle is filled; (joints + root, joints + root) in kg m², kg m and kg. The rows of the
+            root are rotation about x, y, z and motion along them, those of a planar root rotation about y, then
+            motion along x and z.
     """
     count = topology.shape[0]
     for i in range(count):
@@ -60,7 +63,32 @@ def mass_matrix(
     for i in range(1, count):
         _joint_row(topology, geometry, i, work, inertia)
     if root != FIXED_ROOT:
-        _eliminate_root(topology, root, work, inertia)
+        _root_rows(topology, root, work, inertia)
+
+
+def mass_matrix(tree: Tree, rotation: Floats, position: Floats) -> Floats:
+    """Return the matrix that maps joint accelerations to joint torques when nothing else acts, armature included.
+
+    For a root that moves this is the Schur complement that eliminates the root's motion. A planar root must be turned
+    about y only.
+
+    Args:
+        tree: the body.
+        rotation: from `forward_kinematics`.
+        position: from `forward_kinematics`.
+
+    Returns:
+        (joints, joints) in kg m².
+    """
+    n = len(tree.joints)
+    lower = np.zeros((n + tree.root, n + tree.root))
+    inertia_of_all(tree.topology, tree.geometry, tree.root, rotation, position, tree.new_work(), lower)
+    joints = lower[:n, :n] + np.tril(lower[:n, :n], -1).T
+    if tree.root == FIXED_ROOT:
+        return joints
+    own = lower[n:, n:] + np.tril(lower[n:, n:], -1).T
+    shared: Floats = np.linalg.solve(np.linalg.cholesky(own), lower[n:, :n])
+    return np.asarray(joints - shared.T @ shared)
 
 
 @compiled
@@ -156,32 +184,25 @@ def _joint_row(topology: Integers, geometry: Floats, i: int, work: Floats, inert
         for k in range(6):
             value += work[j, _MOTION + k] * work[i, _FORCE + k]
         column = topology[j, JOINT]
-        inertia[row, column] = value
-        inertia[column, row] = value
+        inertia[max(row, column), min(row, column)] = value
         j = topology[j, PARENT]
     inertia[row, row] += geometry[i, ARMATURE]
 
 
 @compiled
-def _eliminate_root(topology: Integers, root: int, work: Floats, inertia: Floats) -> None:
+def _root_rows(topology: Integers, root: int, work: Floats, inertia: Floats) -> None:
     count = topology.shape[0]
-    factor = work[count : count + 6]
-    _root_inertia(work[0], factor)
+    n = inertia.shape[0] - root
+    own = work[count : count + 6]
+    _root_inertia(work[0], own)
     if root != FREE_ROOT:
-        _keep_planar(work, count, factor)
-    _factorise(factor, root)
+        _keep_planar(work, count, own)
     for i in range(1, count):
-        _solve(factor, root, work[i])
-    for i in range(1, count):
-        for j in range(1, i + 1):
-            value = 0.0
-            for k in range(root):
-                value += work[i, _FORCE + k] * work[j, _FORCE + k]
-            row = topology[i, JOINT]
-            column = topology[j, JOINT]
-            inertia[row, column] -= value
-            if i != j:
-                inertia[column, row] -= value
+        for k in range(root):
+            inertia[n + k, topology[i, JOINT]] = work[i, _FORCE + k]
+    for i in range(root):
+        for j in range(i + 1):
+            inertia[n + i, n + j] = own[i, j]
 
 
 @compiled
@@ -215,23 +236,3 @@ def _keep_planar(work: Floats, count: int, factor: Floats) -> None:
         work[i, _FORCE] = work[i, _FORCE + 1]
         work[i, _FORCE + 1] = work[i, _FORCE + 3]
         work[i, _FORCE + 2] = work[i, _FORCE + 5]
-
-
-@compiled
-def _factorise(factor: Floats, size: int) -> None:
-    # Cholesky decomposition in place, lower triangle.
-    for i in range(size):
-        for j in range(i + 1):
-            value = factor[i, j]
-            for k in range(j):
-                value -= factor[i, k] * factor[j, k]
-            factor[i, j] = sqrt(value) if i == j else value / factor[j, j]
-
-
-@compiled
-def _solve(factor: Floats, size: int, row: Floats) -> None:
-    for i in range(size):
-        value = row[_FORCE + i]
-        for k in range(i):
-            value -= factor[i, k] * row[_FORCE + k]
-        row[_FORCE + i] = value / factor[i, i]

@@ -76,7 +76,7 @@ def _imports(shape: Shape) -> str:
         "import numpy as np",
         "",
         "from neuromech.compiler.coupling import muscle_damping, muscle_torque, observer_implicit, soft_limit",
-        "from neuromech.compiler.dynamics import mass_matrix",
+        "from neuromech.compiler.dynamics import inertia_of_all",
         "from neuromech.compiler.kinematics import contact_positions, forward_kinematics, roll_pitch_yaw",
         "from neuromech.compiler.kinematics import segment_velocities, world_axis",
         "from neuromech.compiler.numerics import compiled, copy_from, elementwise, equation, interpolate, relaxed",

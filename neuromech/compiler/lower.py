@@ -136,7 +136,7 @@ def _lower_mechanics(
     structure(tree, integers)
     work.add("last_velocity", n)
     work.add("last_torque", n)
-    work.add("work", n + 2 * m)
+    work.add("work", 2 * m + n + tree.root)
     return paths(elements, tree, graph, layout, integers, floats, work)
 
 

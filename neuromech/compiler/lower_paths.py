@@ -10,7 +10,7 @@ from neuromech.compiler.layout import Layout
 from neuromech.compiler.lower_body import moved
 from neuromech.compiler.lower_components import follow
 from neuromech.compiler.paths import CONSTANT, CONSTANT_ARMS, COSINE, GEOMETRIC, LEVER_ARMS, STRAIGHT_LINES
-from neuromech.compiler.tree import FIXED_ROOT, Tree
+from neuromech.compiler.tree import Tree
 from neuromech.components.paths import ConstantMomentArms, LeverArms, StraightLines
 from neuromech.graph.model import Element, ModelGraph
 from neuromech.units import Quantity
@@ -71,15 +71,16 @@ def paths(
 def _first_coupled(tree: Tree, crossed: list[list[str]]) -> list[int]:
     """Return for each joint the first joint whose acceleration or damping it can feel, itself at the latest.
 
-    Under a fixed root these are the joints of its own limb; a root that moves, and a muscle, couple what they join.
+    These are the joints of its own limb, and those that a muscle joins. A root that moves feels all joints; its rows
+    come last, and the joints feel each other through it only there.
     """
     n = len(tree.joints)
     carried = moved(tree)
-    coupled = (carried @ carried.T > 0) if tree.root == FIXED_ROOT else np.ones((n, n), dtype=bool)
+    coupled = carried @ carried.T > 0
     for joints in crossed:
         places = [tree.joints.index(joint) for joint in joints]
         coupled[np.ix_(places, places)] = True
-    return [min(j, int(np.argmax(coupled[j]))) for j in range(n)]
+    return [*(min(j, int(np.argmax(coupled[j]))) for j in range(n)), *(0 for _ in range(tree.root))]
 
 
 def _path(element: Element) -> _Way:

@@ -99,7 +99,7 @@ def _kinematics(tree: Tree, path_points: int) -> tuple[tuple[Integers | Floats, 
         np.zeros((joints, 3)),
         np.zeros((path_points, 3)),
         tree.new_work(),
-        np.zeros((joints, joints)),
+        np.zeros((joints + tree.root, joints + tree.root)),
         np.zeros((joints, joints)),
     )
     return fixed, moving

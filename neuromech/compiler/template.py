@@ -476,9 +476,9 @@ def torques(dt, x, s, u, p, F, I, T, D):
     mass, damping = D[8], D[9]
     velocity = s[body + n : body + 2 * n]
     torque = s[<torque> : <torque> + n]
-    acceleration = F[w : w + n]
-    force = F[w + n : w + n + m]
-    slope = F[w + n + m : w + n + 2 * m]
+    force = F[w : w + m]
+    slope = F[w + m : w + 2 * m]
+    acceleration = F[w + 2 * m : w + 2 * m + n + <root>]
     first = I[<path_first> : <path_first> + m + 1]
     joint = I[<path_joint> : <path_joint> + first[m]]
     arms = F[<arms> : <arms> + first[m]]
@@ -498,14 +498,14 @@ def torques(dt, x, s, u, p, F, I, T, D):
     if <explicit>:
         return
     muscle_damping(slope, arms, first, joint, damping)
-    mass_matrix(T[0], T[1], <root>, D[0], D[1], D[7], mass)
+    inertia_of_all(T[0], T[1], <root>, D[0], D[1], D[7], mass)
     last_velocity = F[<last_velocity> : <last_velocity> + n]
     last_torque = F[<last_torque> : <last_torque> + n]
     if n > 0 and np.isnan(last_torque[0]):
         for j in range(n):
             last_torque[j] = torque[j]
             last_velocity[j] = velocity[j]
-    coupled = I[<coupled> : <coupled> + n]
+    coupled = I[<coupled> : <coupled> + n + <root>]
     observer_implicit(dt, mass, damping, coupled, torque, velocity, last_velocity, last_torque, acceleration)
     for j in range(n):
         last_torque[j] = torque[j]

@@ -27,7 +27,7 @@ CENTER: Final = 7
 INERTIA: Final = 10
 ARMATURE: Final = 13
 COLUMNS: Final = 14
-# Columns of the work array of the mass matrix, and the rows that it needs beside one per segment.
+# Columns of the work array of the inertia, and the rows that it needs beside one per segment.
 WORK_COLUMNS: Final = 22
 WORK_ROWS: Final = 6
 
@@ -111,7 +111,7 @@ class Tree:
         return self.geometry[:, ARMATURE]
 
     def new_work(self) -> Floats:
-        """Return a work array for `mass_matrix`; (segments + 6, 22)."""
+        """Return a work array for `inertia_of_all`; (segments + 6, 22)."""
         return np.zeros((len(self.segments) + WORK_ROWS, WORK_COLUMNS))
 
 

@@ -22,7 +22,7 @@ from neuromech.pipeline import build_graph, load_document
 PARTS = {
     "kinematics": "kinematics(s, F, I, T, D)",
     "paths, muscles and sensors, kinematics included": "mechanics(x, s, u, p, F, I, T, D)",
-    "mass matrix": "mass_matrix(T[0], T[1], I[ROOT], D[0], D[1], D[7], D[8])",
+    "mass matrix": "inertia_of_all(T[0], T[1], I[ROOT], D[0], D[1], D[7], D[8])",
     "torques and coupling, mass matrix included": "torques(1e-3, x, s, u, p, F, I, T, D)",
     "network: outputs": "network_outputs(x, s, u, p, F, I)",
     "network: inputs": "network_inputs(s, u, p, F, I)",

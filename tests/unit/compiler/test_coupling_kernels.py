@@ -62,6 +62,24 @@ def test_predicted_acceleration_solves_the_implicit_equation():
     assert applied == pytest.approx(torque - dt * damping @ a)
 
 
+def test_a_root_that_moves_acts_as_if_its_motion_were_eliminated():
+    """Limbs of two joints each under a root of three motions, whose rows come last."""
+    rng = np.random.default_rng(2)
+    whole, dt = spd(6, 7), 1e-3
+    whole[:2, 2:4] = whole[2:4, :2] = 0.0
+    whole += 5.0 * np.eye(7)
+    damping = np.zeros((4, 4))
+    damping[:2, :2], damping[2:, 2:] = spd(7, 2), spd(8, 2)
+    torque, velocity, last_velocity, last_torque = rng.normal(size=(4, 4))
+    eliminated = whole[:4, :4] - whole[:4, 4:] @ np.linalg.solve(whole[4:, 4:], whole[4:, :4])
+    expected, a = coupled(dt, eliminated, damping, torque, velocity, last_velocity, last_torque)
+    applied, acceleration = torque.copy(), np.empty(7)
+    first = np.array([0, 0, 2, 2, 0, 0, 0])
+    observer_implicit(dt, np.tril(whole), damping, first, applied, velocity, last_velocity, last_torque, acceleration)
+    assert applied == pytest.approx(expected, rel=1e-10)
+    assert acceleration[:4] == pytest.approx(a, rel=1e-10)
+
+
 def test_a_static_load_is_borne_without_bias():
     """Where the muscles hold a load and nothing moves, the torque that is applied is that of the muscles."""
     torque, still = np.array([3.0, -2.0, 0.5, 0.0, 1.0]), np.zeros(5)

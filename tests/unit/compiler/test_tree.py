@@ -62,10 +62,7 @@ def pose_of(tree, angles, root_pose):
 
 
 def inertia_of(tree, angles, root_pose):
-    rotation, position = pose_of(tree, angles, root_pose)
-    inertia = np.full((len(tree.joints), len(tree.joints)), np.nan)
-    mass_matrix(tree.topology, tree.geometry, tree.root, rotation, position, tree.new_work(), inertia)
-    return inertia
+    return mass_matrix(tree, *pose_of(tree, angles, root_pose))
 
 
 def random_state(seed, joints):

@@ -85,11 +85,9 @@ def body_of(parts, root="free"):
 def inertia_of(body, angles):
     tree = lower_tree(body)
     rotation, position = np.zeros((len(tree.segments), 3, 3)), np.zeros((len(tree.segments), 3))
-    inertia = np.zeros((len(tree.joints), len(tree.joints)))
     pose = np.array([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0])
     forward_kinematics(tree.topology, tree.geometry, angles, pose, rotation, position)
-    mass_matrix(tree.topology, tree.geometry, tree.root, rotation, position, tree.new_work(), inertia)
-    return inertia
+    return mass_matrix(tree, rotation, position)
 
 
 def test_urdf_has_the_inertia_that_bullet_reads_from_the_same_file(tmp_path):
