@@ -8,7 +8,7 @@ Source: Featherstone 2008, Rigid Body Dynamics Algorithms, section 6.2, doi:10.1
 import numpy as np
 
 from neuromech.compiler.kinematics import world_axis
-from neuromech.compiler.numerics import Floats, Integers, compiled
+from neuromech.compiler.numerics import Floats, Integers, compiled, inlined
 from neuromech.compiler.tree import (
     ARMATURE,
     CENTER,
@@ -91,14 +91,14 @@ def mass_matrix(tree: Tree, rotation: Floats, position: Floats) -> Floats:
     return np.asarray(joints - shared.T @ shared)
 
 
-@compiled
+@inlined
 def _clear(matrix: Floats, size: int) -> None:
     for i in range(size):
         for j in range(size):
             matrix[i, j] = 0.0
 
 
-@compiled
+@inlined
 def _segment_inertia(geometry: Floats, rotation: Floats, position: Floats, i: int, row: Floats) -> None:
     mass = geometry[i, MASS]
     for k in range(_SECOND + 6):
@@ -118,7 +118,7 @@ def _segment_inertia(geometry: Floats, rotation: Floats, position: Floats, i: in
     _add_moment(row, -mass, x, y, z)
 
 
-@compiled
+@inlined
 def _add_moment(row: Floats, moment: float, x: float, y: float, z: float) -> None:
     row[_SECOND] += moment * x * x
     row[_SECOND + 1] += moment * y * y
@@ -128,7 +128,7 @@ def _add_moment(row: Floats, moment: float, x: float, y: float, z: float) -> Non
     row[_SECOND + 5] += moment * y * z
 
 
-@compiled
+@inlined
 def _joint_motion(
     topology: Integers, geometry: Floats, rotation: Floats, position: Floats, i: int, row: Floats
 ) -> None:
@@ -147,7 +147,7 @@ def _joint_motion(
     _apply_inertia(row)
 
 
-@compiled
+@inlined
 def _store(row: Floats, at: int, a: float, b: float, c: float, x: float, y: float, z: float) -> None:
     row[at] = a
     row[at + 1] = b
@@ -157,7 +157,7 @@ def _store(row: Floats, at: int, a: float, b: float, c: float, x: float, y: floa
     row[at + 5] = z
 
 
-@compiled
+@inlined
 def _apply_inertia(row: Floats) -> None:
     # Spatial inertia times motion: moment = I ω + h × v, force = m v − h × ω.
     m, hx, hy, hz = row[0], row[1], row[2], row[3]
@@ -175,7 +175,7 @@ def _apply_inertia(row: Floats) -> None:
     )
 
 
-@compiled
+@inlined
 def _joint_row(topology: Integers, geometry: Floats, i: int, work: Floats, inertia: Floats) -> None:
     row = topology[i, JOINT]
     j = i
@@ -189,7 +189,7 @@ def _joint_row(topology: Integers, geometry: Floats, i: int, work: Floats, inert
     inertia[row, row] += geometry[i, ARMATURE]
 
 
-@compiled
+@inlined
 def _root_rows(topology: Integers, root: int, work: Floats, inertia: Floats) -> None:
     count = topology.shape[0]
     n = inertia.shape[0] - root
@@ -205,7 +205,7 @@ def _root_rows(topology: Integers, root: int, work: Floats, inertia: Floats) -> 
             inertia[n + i, n + j] = own[i, j]
 
 
-@compiled
+@inlined
 def _root_inertia(row: Floats, factor: Floats) -> None:
     _clear(factor, 6)
     m, hx, hy, hz = row[0], row[1], row[2], row[3]
@@ -222,7 +222,7 @@ def _root_inertia(row: Floats, factor: Floats) -> None:
     factor[5, 1] = -hx
 
 
-@compiled
+@inlined
 def _keep_planar(work: Floats, count: int, factor: Floats) -> None:
     # Rows and columns of rotation about y and motion along x and z move to the front.
     yy, xy, zy, m = factor[1, 1], factor[3, 1], factor[5, 1], factor[3, 3]

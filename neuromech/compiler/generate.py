@@ -79,7 +79,7 @@ def _imports(shape: Shape) -> str:
         "from neuromech.compiler.dynamics import inertia_of_all",
         "from neuromech.compiler.kinematics import contact_positions, forward_kinematics, roll_pitch_yaw",
         "from neuromech.compiler.kinematics import segment_velocities, world_axis",
-        "from neuromech.compiler.numerics import compiled, copy_from, elementwise, equation, interpolate, relaxed",
+        "from neuromech.compiler.numerics import compiled, copy_from, elementwise, interpolate, part, relaxed",
         "from neuromech.compiler.numerics import sum_at, weighted_sum_at",
         "from neuromech.compiler.paths import LEVER_ARMS, STRAIGHT_LINES, lever, straight_path",
         "from neuromech.compiler.team import DONE, FIRST, HELPERS, LAST, NEXT, ORDER, PART, STOP",
@@ -102,7 +102,7 @@ def _equations(kind: KindShape) -> str:
 
 def _outputs(shape: Shape) -> str:
     lines = [
-        "@equation",
+        "@part",
         "def network_outputs(x, s, u, p, F, I):",
         '    """Outputs of neurons and drives: first those that depend on states alone, then the others in order."""',
     ]
@@ -178,7 +178,7 @@ def _dispatch(function: str, shape: Shape, *, with_body: bool) -> str:
     phase = [kind for kind in shape.kinds if evaluated_with_body(kind.cls) == with_body]
     kinds = [kind for kind in phase if is_scheduled(kind)]
     lines = [
-        "@equation",
+        "@part",
         f"def {function}(x, s, u, p, F, I):",
         '    """Inputs and outputs of what passes inputs straight on, in an order in which each input is ready."""',
     ]
@@ -209,7 +209,7 @@ def _dispatch(function: str, shape: Shape, *, with_body: bool) -> str:
 
 def _inputs(shape: Shape) -> str:
     lines = [
-        "@equation",
+        "@part",
         "def network_inputs(s, u, p, F, I):",
         '    """Inputs of everything that has states."""',
     ]
@@ -228,7 +228,7 @@ def _gather_all(kind: KindShape, shape: Shape) -> str:
 
 def _flows(shape: Shape) -> str:
     lines = [
-        "@equation",
+        "@part",
         "def flows(x, u, p, I, drive, rate):",
         '    """Drive and rate of every state: dx/dt = drive − rate x."""',
     ]
@@ -240,7 +240,7 @@ def _flows(shape: Shape) -> str:
 
 def _advances(shape: Shape) -> str:
     lines = [
-        "@equation",
+        "@part",
         "def advance_states(dt, x, s, u, p, F, I):",
         '    """States that components advance themselves: what they are after the step waits in F."""',
     ]
@@ -252,7 +252,7 @@ def _advances(shape: Shape) -> str:
 
 
 def _arrivals(shape: Shape) -> str:
-    lines = ["@equation", "def take_advanced(x, F, I):", '    """Give these states their new values."""']
+    lines = ["@part", "def take_advanced(x, F, I):", '    """Give these states their new values."""']
     for kind in shape.kinds:
         if kind.cls.advance:
             first, count = f"<{kind.name}.states>", f"{len(kind.cls.states)} * <{kind.name}.count>"

@@ -2,7 +2,7 @@
 
 from math import asin, atan2, cos, sin
 
-from neuromech.compiler.numerics import Floats, Integers, compiled
+from neuromech.compiler.numerics import Floats, Integers, compiled, inlined
 from neuromech.compiler.tree import AXIS, HINGE, JOINT, KIND, PARENT, POSITION
 
 
@@ -119,7 +119,7 @@ def quaternion_rotation(x: float, y: float, z: float, w: float, rotation: Floats
     rotation[2, 2] = 1.0 - 2.0 * (x * x + y * y)
 
 
-@compiled
+@inlined
 def world_axis(geometry: Floats, rotation: Floats, segment: int, k: int) -> float:
     """Return component `k` of a segment's joint axis in world axes."""
     component: float = (
@@ -130,7 +130,7 @@ def world_axis(geometry: Floats, rotation: Floats, segment: int, k: int) -> floa
     return component
 
 
-@compiled
+@inlined
 def _turn(parent: Floats, x: float, y: float, z: float, angle: float, rotation: Floats) -> None:
     # Rodrigues' formula, multiplied onto the parent's orientation.
     c = cos(angle)

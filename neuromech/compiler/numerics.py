@@ -17,6 +17,9 @@ Places = NDArray[np.uint32]
 # Not-a-number and infinity keep their meaning: divergence is looked for.
 _FAST_MATH = {"contract", "arcp", "nsz", "afn", "reassoc"}
 
+# What Python needs to call a function takes a fifth of the time to compile it.
+_UNKNOWN_TO_PYTHON: dict[str, Any] = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
+
 
 def compiled(function: Callable[..., Any]) -> Any:
     """Compile a kernel on first call; releases the interpreter lock, keeps its machine code on disk."""
@@ -26,6 +29,17 @@ def compiled(function: Callable[..., Any]) -> Any:
 def equation(function: Callable[..., Any]) -> Any:
     """Compile a function that is inlined into the kernel that calls it, so that nothing is kept on disk."""
     return numba.njit(nogil=True, error_model="numpy", fastmath=_FAST_MATH)(function)
+
+
+def part(function: Callable[..., Any]) -> Any:
+    """Compile a function that only compiled functions call; what Python needs to call it is left out."""
+    return numba.njit(nogil=True, error_model="numpy", fastmath=_FAST_MATH, **_UNKNOWN_TO_PYTHON)(function)
+
+
+def inlined(function: Callable[..., Any]) -> Any:
+    """Compile a function that always becomes part of its caller: a call hands over seven numbers for each array."""
+    options = {**_UNKNOWN_TO_PYTHON, "forceinline": True}
+    return numba.njit(nogil=True, error_model="numpy", fastmath=_FAST_MATH, **options)(function)
 
 
 def elementwise(function: Callable[..., Any]) -> Any:
@@ -48,7 +62,8 @@ def _in_order(function: Callable[..., Any]) -> Any:
 
     Compilers would turn the loops below into gather instructions, which take three times as long.
     """
-    return numba.njit(nogil=True, error_model="numpy", fastmath={"contract"}, forceinline=True)(function)
+    options = {**_UNKNOWN_TO_PYTHON, "forceinline": True}
+    return numba.njit(nogil=True, error_model="numpy", fastmath={"contract"}, **options)(function)
 
 
 @_in_order

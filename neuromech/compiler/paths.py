@@ -4,13 +4,13 @@ from math import cos, sin, sqrt
 
 import numpy as np
 
-from neuromech.compiler.numerics import Floats, Integers, equation
+from neuromech.compiler.numerics import Floats, Integers, inlined
 
 CONSTANT_ARMS, STRAIGHT_LINES, LEVER_ARMS = range(3)
 CONSTANT, COSINE, GEOMETRIC = range(3)
 
 
-@equation
+@inlined
 def lever(form: int, radius: float, angle: float, reference: float, peak: float) -> tuple[float, float]:
     """Return the lever arm (m) at an angle, and its integral (m) from the reference on; Dzeladini 2013 eq. 2.18–2.23.
 
@@ -31,7 +31,7 @@ def lever(form: int, radius: float, angle: float, reference: float, peak: float)
     return radius * sin(angle) / now, 2.0 * radius * (cos(reference) - cos(angle)) / (now + then)
 
 
-@equation
+@inlined
 def straight_path(
     points: Floats,
     carrier: Integers,
@@ -65,6 +65,7 @@ def straight_path(
         z = points[i + 1, 2] - points[i, 2]
         distance = np.sqrt(x * x + y * y + z * z)
         length += distance
+        inverse = 1.0 / distance
         for k in range(joint.shape[0]):
             j = joint[k]
             first = moved[j, carrier[i]]
@@ -74,11 +75,11 @@ def straight_path(
             end = i + 1 if second else i
             sign = 1.0 if second else -1.0
             dx, dy, dz = _motion(points, end, axis, position[child[j]], j, slide[j])
-            arms[k] -= sign * (x * dx + y * dy + z * dz) / distance
+            arms[k] -= sign * inverse * (x * dx + y * dy + z * dz)
     return length
 
 
-@equation
+@inlined
 def _motion(points: Floats, i: int, axis: Floats, origin: Floats, j: int, slides: int) -> tuple[float, float, float]:
     if slides:
         return axis[j, 0], axis[j, 1], axis[j, 2]

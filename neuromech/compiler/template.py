@@ -1,7 +1,7 @@
 """The parts of a generated step module that do not depend on the kinds in use. <name> is an offset or a count."""
 
 ROWS = '''
-@equation
+@part
 def rows_between(s, u, p, F, I, first, last):
     """Sum the weighted signals that reach the input ports from `first` to `last`."""
     row_start, weights, base = <row_start>, <weights>, <base>
@@ -18,7 +18,7 @@ def rows_between(s, u, p, F, I, first, last):
 '''
 
 GATHER = '''
-@equation
+@part
 def gather(s, u, p, F, I, first, rows, stride, ports):
     """Sum the weighted signals that reach `ports` blocks of `rows` input ports each."""
     for port in range(ports):
@@ -27,7 +27,7 @@ def gather(s, u, p, F, I, first, rows, stride, ports):
 '''
 
 TEAM_GATHER = '''
-@equation
+@part
 def take_rows(s, u, p, F, I):
     """Sum rows of the present order until none are left."""
     team = I.ctypes.data + 8 * <team>
@@ -56,7 +56,7 @@ def help(s, u, p, F, I):
         add(team + 8 * DONE, 1)
 
 
-@equation
+@part
 def gather(s, u, p, F, I, first, rows, stride, ports):
     """Sum the weighted signals that reach `ports` blocks of `rows` input ports each, many of them with the team."""
     helpers = I[<team> + HELPERS]
@@ -83,7 +83,7 @@ def stop(I):
 '''
 
 GATHER_SLOTS = '''
-@equation
+@part
 def gather_slots(s, u, p, F, I, first, rows, table):
     """Sum the weighted signals that reach `rows` input ports, the k-th of every port at a time; see `slots.py`."""
     used, slots, entry, row = I[table], I[table + 1], I[table + 2], I[table + 3]
@@ -107,7 +107,7 @@ def gather_slots(s, u, p, F, I, first, rows, table):
 '''
 
 NETWORK = '''
-@equation
+@part
 def delayed_inputs(step, fraction, p, F, I):
     """Put into the base of each input what delayed synapses bring `fraction` steps after step `step`."""
     base, history, length, width = <base>, <history>, <history_length>, <history_width>
@@ -123,7 +123,7 @@ def delayed_inputs(step, fraction, p, F, I):
         F[base + I[<delayed_row> + k]] += p[<weights> + I[<delayed_weight> + k]] * signal
 
 
-@equation
+@part
 def remember(step, s, F, I):
     """Write the signals that delayed synapses will need into the ring of step `step`."""
     start = <history> + (step % <history_length>) * <history_width>
@@ -131,14 +131,14 @@ def remember(step, s, F, I):
         F[start + k] = s[I[<history_slot> + k]]
 
 
-@equation
+@part
 def fill_history(s, F, I):
     """Write the signals of now into the whole ring."""
     for step in range(<history_length>):
         remember(step, s, F, I)
 
 
-@equation
+@part
 def stage(x, s, u, p, F, I, drive, rate, step, fraction):
     """Evaluate the network at one state: signals, inputs, drive and rate of every state."""
     if <delays>:
@@ -159,7 +159,7 @@ def derivative(t, x, dx, s, u, p, F, I):
         dx[k] -= rate[k] * x[k]
 
 
-@equation
+@part
 def apply_protocol(t, p, I):
     """Give every parameter that the protocol moves its value at time t, wherever it is used.
 
@@ -173,7 +173,7 @@ def apply_protocol(t, p, I):
             p[I[<bound_slot> + b]] = value
 
 
-@equation
+@part
 def mean(k, x, s, u, I):
     """Return the k-th mean over a population."""
     first, count = I[<mean_first> + k], I[<mean_count> + k]
@@ -185,7 +185,7 @@ def mean(k, x, s, u, I):
     return np.sum(u[first - states - signals : first - states - signals + count]) / count
 
 
-@equation
+@part
 def is_due(tick, I):
     """Return whether any record group samples this tick."""
     for group in range(<groups>):
@@ -194,7 +194,7 @@ def is_due(tick, I):
     return False
 
 
-@equation
+@part
 def record(tick, x, s, u, I, R):
     """Copy the signals of every record group that is due, one stretch of signals that stand in one array at a time."""
     for group in range(<groups>):
@@ -219,7 +219,7 @@ def record(tick, x, s, u, I, R):
                     samples[h] = mean(place[h], x, s, u, I)
 
 
-@equation
+@compiled
 def first_bad(x):
     """Return the position of the first state that is not finite, or −1."""
     total = 0.0
@@ -256,7 +256,7 @@ def begin(x, s, u, p, F, I):
 '''
 
 RK4 = '''
-@equation
+@part
 def network_step(step, dt, x, s, u, p, F, I):
     """Advance the network by one step of the classical Runge–Kutta method."""
     n = <states>
@@ -288,7 +288,7 @@ def network_step(step, dt, x, s, u, p, F, I):
 '''
 
 EXPONENTIAL_EULER = '''
-@equation
+@part
 def network_step(step, dt, x, s, u, p, F, I):
     """Advance the network by one step of exponential Euler: drive and rate held, the linear equation exact."""
     n = <states>
@@ -303,7 +303,7 @@ def network_step(step, dt, x, s, u, p, F, I):
 '''
 
 RUSH_LARSEN = '''
-@equation
+@part
 def network_step(step, dt, x, s, u, p, F, I):
     """Advance the network by one step of the second-order Rush–Larsen method: one evaluation.
 
@@ -359,7 +359,7 @@ def run(first, last, dt, x, s, u, p, F, I, R):
 '''
 
 BODY = '''
-@equation
+@part
 def kinematics(s, F, I, T, D):
     """Place the segments in the world; signals of the contacts' centres and of the segments that are looked at."""
     topology, geometry, contact_segment, contact_position = T
@@ -390,7 +390,7 @@ def kinematics(s, F, I, T, D):
         s[at + 3], s[at + 4], s[at + 5] = roll_pitch_yaw(rotation[r])
 
 
-@equation
+@part
 def mechanics(x, s, u, p, F, I, T, D):
     """Muscle lengths, velocities and moment arms, then forces and sensors."""
     kinematics(s, F, I, T, D)
@@ -398,7 +398,7 @@ def mechanics(x, s, u, p, F, I, T, D):
     evaluate_mechanics(x, s, u, p, F, I)
 
 
-@equation
+@part
 def muscle_paths(s, p, F, I, T, D):
     """Muscle lengths, velocities and moment arms; as if all arms were constant first, then the other paths."""
     n, m, body = <joints>, <muscles>, <body>
@@ -448,7 +448,7 @@ def lengths_now(s, p, F, I, T, D):
     muscle_paths(s, p, F, I, T, D)
 
 
-@equation
+@part
 def lines_length(k, p, I, T, D, joint, arm):
     """Place the points of muscle k in the world, measure the lines between them, fill the moment arms."""
     topology, geometry, contact_segment, contact_position = T
@@ -469,7 +469,7 @@ def lines_length(k, p, I, T, D, joint, arm):
     return straight_path(points[: last - first], carrier, moved, axis, position, child, slide, joint, arm)
 
 
-@equation
+@part
 def torques(dt, x, s, u, p, F, I, T, D):
     """Torques of muscles, joint dampers and joint springs, coupled with the body; they go to the torque signals."""
     n, m, body, w = <joints>, <muscles>, <body>, <work>
@@ -512,7 +512,7 @@ def torques(dt, x, s, u, p, F, I, T, D):
         last_velocity[j] = velocity[j]
 
 
-@equation
+@part
 def present(step, x, s, u, p, F, I, T, D):
     """Evaluate all signals of one instant; what sensors tell reaches muscles through units without memory at once."""
     if <delays>:

@@ -67,11 +67,6 @@ class Recorder:
         return GroupData(time, tuple(names), values, tuple(si_unit(units[_listed(signal)]) for signal in names))
 
 
-@cache
-def _version(package: str) -> str:
-    return version(package)
-
-
 def _listed(name: str) -> str:
     """Return the name that a signal has in the list of all, which has populations as wholes."""
     element, _, quantity = split(name)
