@@ -9,7 +9,7 @@ from neuromech.bench.body_loop import Engine, Scene, cat, loop_over_bare
 from neuromech.bench.muscle_speed import against_muscle
 from neuromech.bench.network_speed import PERIOD_TOLERANCE, against_c, against_script, small_network
 from neuromech.bench.pairing import Comparison, Result, failed, measure
-from neuromech.bench.scaling import cost_per_neuron, recording, two_threads
+from neuromech.bench.scaling import cost_per_neuron, recording, two_processes_of_c, two_threads
 from neuromech.bench.starting import cold, warm
 from neuromech.bench.workspace import Workspace
 from neuromech.errors import NeuromechError
@@ -68,6 +68,7 @@ BENCHMARKS: dict[str, dict[str, Opener]] = {
     "two_threads_throughput": {"": _threads_of_cats("pybullet")},
     "two_threads_throughput_mujoco": {"": _threads_of_cats("mujoco")},
     "two_threads_throughput_network": {"": _threads_of_networks},
+    "two_processes_of_c_throughput": {"": two_processes_of_c},
     "record_all_over_none": {"": recording},
     "run_to_first_step_seconds": {"": warm},
     "cold_compile_seconds": {"": cold},

@@ -45,12 +45,21 @@ def against_c(workspace: Workspace) -> Iterator[Comparison]:
         PeerError: there is no compiler, or the program disagrees.
     """
     program = small_network(workspace)
+    with Peer([c_program(workspace, program)]) as peer:
+        yield compared(program, peer, workspace.steps, PERIOD_TOLERANCE, " ".join(_COMPILER))
+
+
+def c_program(workspace: Workspace, program: Program) -> Path:
+    """Compile the plain C program of a network and return its file.
+
+    Raises:
+        PeerError: there is no compiler.
+    """
     folder = workspace.folder
     Path(folder, "network.h").write_text(header(export(program, SEED, REFERENCE)), encoding="utf-8")
     binary = folder / "limit"
     _compile([*_COMPILER, f"-I{folder}", workspace.source("limit.c"), "-o", binary, "-lm"])
-    with Peer([binary]) as peer:
-        yield compared(program, peer, workspace.steps, PERIOD_TOLERANCE, " ".join(_COMPILER))
+    return binary
 
 
 @contextmanager

@@ -1,7 +1,7 @@
 """How our own cost changes: with size, with a second thread, with what is recorded."""
 
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from pathlib import Path
@@ -10,8 +10,9 @@ from typing import Any
 from ruamel.yaml import YAML
 
 from neuromech.bench.body_loop import SEED, cat
-from neuromech.bench.network_speed import seconds_per_step, small_network
+from neuromech.bench.network_speed import c_program, seconds_per_step, small_network
 from neuromech.bench.pairing import Comparison
+from neuromech.bench.peers import Peer
 from neuromech.bench.workspace import Workspace
 from neuromech.compiler.lower import lower
 from neuromech.compiler.program import Program
@@ -23,6 +24,8 @@ _EVERYTHING = (
     "record.neurons.signals=['*']",
     "record.neurons.every=1 ms",
 )
+# A C program is so quick that its runs are made as long as those of the cat.
+_C_STEPS = 4
 LEGS = ("LF", "RF", "LH", "RH")
 
 
@@ -63,6 +66,27 @@ def two_threads(program: Program, seconds: float) -> Iterator[Comparison]:
         "one simulation in one thread",
         {"simulated_seconds": seconds},
     )
+
+
+@contextmanager
+def two_processes_of_c(workspace: Workspace) -> Iterator[Comparison]:
+    """Compare two plain C programs at the same time with one: what two cores of this machine give at all.
+
+    Raises:
+        PeerError: there is no compiler.
+    """
+    program = small_network(workspace)
+    binary = c_program(workspace, program)
+    steps = _C_STEPS * workspace.steps
+    simulated = steps * program.tick
+    with Peer([binary]) as first, Peer([binary]) as second:
+        yield Comparison(
+            lambda: _throughput(lambda: _at_once([first, second], steps), 2 * simulated),
+            lambda: _throughput(lambda: _at_once([first], steps), simulated),
+            "simulated s/s",
+            "one C program alone",
+            {"simulated_seconds": simulated},
+        )
 
 
 @contextmanager
@@ -115,6 +139,12 @@ def _timed(work: Callable[[], object]) -> float:
     started = time.perf_counter()
     work()
     return time.perf_counter() - started
+
+
+def _at_once(peers: Sequence[Peer], steps: int) -> None:
+    with ThreadPoolExecutor(len(peers)) as pool:
+        for run in [pool.submit(peer.run, steps) for peer in peers]:
+            run.result()
 
 
 def _in_threads(program: Program, seconds: float, count: int) -> None:
