@@ -21,9 +21,9 @@ class Standing:
             them failed, or before there is one.
         crashed: how many candidates crashed or diverged.
         fallen: how many fell.
-        rate: evaluations per second in this session (1/s), 0 before the first one.
-        real_time_factor: simulated seconds per second on the clock in this session.
-        remaining: seconds until the end at this rate; None before the first evaluation of this session.
+        rate: evaluations per second since this start of it (1/s), 0 before the first one.
+        real_time_factor: simulated seconds per second on the clock since this start of it.
+        remaining: seconds until the end at this rate; None before the first evaluation since this start of it.
     """
 
     generation: int
