@@ -14,6 +14,7 @@ from optuna.storages import RDBStorage
 from optuna.study import StudyDirection
 from sqlalchemy.engine import URL, make_url
 from sqlalchemy.exc import ArgumentError, SQLAlchemyError
+from sqlalchemy.pool import NullPool
 
 from neuromech.errors import MissingExtraError, StudyError
 from neuromech.study.header import Header
@@ -54,7 +55,9 @@ class Database:
             raise StudyError(f"{self.shown}: there is no such file. Hint: give the storage of 'neuromech optimize'")
         with _connecting(self.shown):
             url = self._url.render_as_string(hide_password=False)
-            self._storage = RDBStorage(url, self._engine_arguments(), skip_table_creation=not create)
+            # Who only looks, and may look often, keeps no connections.
+            pool = {} if create else {"poolclass": NullPool}
+            self._storage = RDBStorage(url, self._engine_arguments() | pool, skip_table_creation=not create)
 
     def __enter__(self) -> Self:
         return self
