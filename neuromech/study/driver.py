@@ -7,7 +7,7 @@ the algorithm asks for the same candidates again, and those that are stored are 
 """
 
 from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from typing import Literal
 
 import numpy as np
@@ -121,14 +121,11 @@ class Search:
 
     def _evaluate(self, jobs: Sequence[Job], executor: Executor, task: Task, stop: Stop, writer: Writer) -> None:
         """Carry out the jobs that are not stored yet."""
-
-        def handed_out() -> Iterator[Job]:
-            for job in jobs:
-                if job.number not in self._found:
-                    writer.begin(job)
-                    yield job
-
-        for done in executor.run(task, handed_out(), stop):
+        missing = [job for job in jobs if job.number not in self._found]
+        if not missing or stop():
+            return
+        writer.begin(missing)
+        for done in executor.run(task, missing, stop):
             evaluation = done.result or self._crashed(done)
             self._found[evaluation.number] = evaluation
             writer.finish(evaluation)

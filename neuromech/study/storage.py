@@ -1,8 +1,8 @@
 """One study in a database, by Optuna; `optuna-dashboard` shows it.
 
-A study is a study of Optuna. Evaluation n is its trial n, which is made (running) before the evaluation starts and gets
-its results after it, each in one transaction. So a trial that does not run any more is complete. The state of the
-algorithm is an attribute of the study, written as a whole after each generation.
+A study is a study of Optuna. Evaluation n is its trial n. The trials of a generation are made in one transaction before
+its first evaluation starts, and wait; each gets its results in one transaction. So a trial that does not wait any more
+is complete. The state of the algorithm is an attribute of the study, written as a whole after each generation.
 
 Trials are written as rows of Optuna's tables: its own functions ask the database several times for each parameter,
 which may take longer than a simulation. Everything is read through them.
@@ -10,10 +10,11 @@ which may take longer than a simulation. Everything is read through them.
 
 import json
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass
-from datetime import datetime
+from datetime import UTC, datetime, timedelta
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -22,9 +23,8 @@ from optuna.exceptions import StorageInternalError
 from optuna.storages import RDBStorage
 from optuna.storages._rdb import models
 from optuna.trial import FrozenTrial, TrialState
-from sqlalchemy import insert, select
+from sqlalchemy import Connection, Table, insert, select, update
 from sqlalchemy.exc import SQLAlchemyError
-from sqlalchemy.orm import Session
 
 from neuromech.errors import StudyError
 from neuromech.study.evaluation import Evaluation, Job
@@ -34,6 +34,14 @@ from neuromech.study.space import Space
 from neuromech.units import unit_factor
 
 BOUNDARY = "algorithm"
+_STUDIES: Table = models.StudyModel.__table__
+_TRIALS: Table = models.TrialModel.__table__
+_PARAMETERS: Table = models.TrialParamModel.__table__
+_ATTRIBUTES: Table = models.TrialUserAttributeModel.__table__
+_VALUES: Table = models.TrialValueModel.__table__
+_ONLY_OBJECTIVE: Mapping[str, Any] = MappingProxyType(
+    {"objective": 0, "value_type": models.TrialValueModel.TrialValueType.FINITE}
+)
 _ELSEWHERE = "another process continues this study at the same time. Hint: end one of them, then resume"
 
 
@@ -116,26 +124,29 @@ class StoredStudy:
         with working(self.place):
             self._storage.set_study_user_attr(self._study, BOUNDARY, asdict(boundary))
 
-    def begin(self, job: Job, space: Space) -> None:
-        """Store that an evaluation is about to start, in one transaction; nothing happens where it is stored already.
+    def begin(self, jobs: Sequence[Job], space: Space) -> None:
+        """Store which evaluations come next, in one transaction; those that are stored already are left as they are.
 
         Raises:
             StudyError: the database fails, or another process works on the study.
         """
-        if job.number in self._trials:
+        new = [job for job in jobs if job.number not in self._trials]
+        if not new:
             return
-        with working(self.place), Session(self._storage.engine) as session, session.begin():
-            study = models.StudyModel.find_or_raise_by_id(self._study, session, for_update=True)
-            now = datetime.now()
-            trial = models.TrialModel(study=study, number=job.number, state=TrialState.RUNNING, datetime_start=now)
-            session.add(trial)
-            session.flush()
-            number = int(trial.trial_id)
-            if self._is_foreign(session, number):
+        with working(self.place), self._storage.engine.begin() as connection:
+            # Whoever else begins evaluations of this study waits here, so that what he began is seen below.
+            connection.execute(select(_STUDIES.c.study_id).where(_STUDIES.c.study_id == self._study).with_for_update())
+            rows = [{"number": job.number, "study_id": self._study, "state": TrialState.WAITING} for job in new]
+            connection.execute(insert(_TRIALS), rows)
+            added = self._after(connection, max(self._trials.values(), default=0))
+            if [number for number, _ in added] != [job.number for job in new]:
                 raise StudyError(_ELSEWHERE)
-            session.execute(insert(models.TrialParamModel), _parameter_rows(number, job, space))
-            session.execute(insert(models.TrialUserAttributeModel), _attribute_rows(number, _known(job, space)))
-        self._trials[job.number] = number
+            ids = dict(added)
+            rows = [row for job in new for row in _parameter_rows(ids[job.number], job, space)]
+            connection.execute(insert(_PARAMETERS), rows)
+            rows = [row for job in new for row in _attribute_rows(ids[job.number], _known(job, space))]
+            connection.execute(insert(_ATTRIBUTES), rows)
+        self._trials |= ids
 
     def finish(self, evaluation: Evaluation) -> None:
         """Store a complete evaluation that was begun, in one transaction.
@@ -144,26 +155,24 @@ class StoredStudy:
             StudyError: the database fails, or another process works on the study.
         """
         number = self._trials[evaluation.number]
-        with working(self.place), Session(self._storage.engine) as session, session.begin():
-            trial = session.get_one(models.TrialModel, number, with_for_update=True)
-            if trial.state != TrialState.RUNNING:
+        state = TrialState.FAIL if evaluation.score is None else TrialState.COMPLETE
+        now = datetime.now(UTC).replace(tzinfo=None)
+        times = {"datetime_start": now - timedelta(seconds=evaluation.wall_seconds), "datetime_complete": now}
+        waiting = (_TRIALS.c.trial_id == number) & (_TRIALS.c.state == TrialState.WAITING)
+        with working(self.place), self._storage.engine.begin() as connection:
+            if not connection.execute(update(_TRIALS).where(waiting).values(state=state, **times)).rowcount:
                 raise StudyError(_ELSEWHERE)
-            session.execute(insert(models.TrialUserAttributeModel), _attribute_rows(number, _results(evaluation)))
+            connection.execute(insert(_ATTRIBUTES), _attribute_rows(number, _results(evaluation)))
             if evaluation.score is not None:
                 value = shown_value(evaluation.score, bool(self.header.stages))
-                finite = models.TrialValueModel.TrialValueType.FINITE
-                session.add(models.TrialValueModel(trial_id=number, objective=0, value=value, value_type=finite))
-            trial.state = TrialState.FAIL if evaluation.score is None else TrialState.COMPLETE
-            trial.datetime_complete = datetime.now()
+                connection.execute(insert(_VALUES), {"trial_id": number, "value": value, **_ONLY_OBJECTIVE})
 
-    def _is_foreign(self, session: Session, ours: int) -> bool:
-        """Tell whether the study has trials between our latest one and the one that was just added."""
-        latest = max(self._trials.values(), default=0)
-        trial = models.TrialModel
-        between = select(trial.trial_id).where(
-            trial.study_id == self._study, trial.trial_id > latest, trial.trial_id != ours
+    def _after(self, connection: Connection, latest: int) -> list[tuple[int, int]]:
+        """Return (number, id) of the trials of this study that were added after one, in order."""
+        found = select(_TRIALS.c.number, _TRIALS.c.trial_id).where(
+            _TRIALS.c.study_id == self._study, _TRIALS.c.trial_id > latest
         )
-        return session.scalar(between.limit(1)) is not None
+        return [(number, trial) for number, trial in connection.execute(found.order_by(_TRIALS.c.trial_id))]
 
 
 def shown_value(score: Score, staged: bool) -> float:

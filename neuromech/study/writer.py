@@ -1,7 +1,7 @@
 """Storing beside the work: a thread writes to the database, strictly in the order in which it is asked to."""
 
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from types import TracebackType
 from typing import Self
@@ -26,13 +26,13 @@ class Writer:
         self._asked: deque[Future[None]] = deque()
         self._broken = False
 
-    def begin(self, job: Job) -> None:
-        """Store that an evaluation starts.
+    def begin(self, jobs: Sequence[Job]) -> None:
+        """Store which evaluations come next.
 
         Raises:
             StudyError: something could not be written.
         """
-        self._write(lambda: self._stored.begin(job, self._space))
+        self._write(lambda: self._stored.begin(jobs, self._space))
 
     def finish(self, evaluation: Evaluation) -> None:
         """Store an evaluation.
