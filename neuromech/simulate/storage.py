@@ -62,10 +62,14 @@ def load(file: Path) -> Recording:
 def _write_and_rename(tree: xr.DataTree, file: Path) -> None:
     partial = file.with_name(f".{file.name}.{os.getpid()}.partial")
     try:
-        tree.to_netcdf(partial, engine="h5netcdf", encoding=_encoding(tree))
+        _write(tree, partial)
         os.replace(partial, file)
     finally:
         partial.unlink(missing_ok=True)
+
+
+def _write(tree: xr.DataTree, file: Path) -> None:
+    tree.to_netcdf(file, engine="h5netcdf", encoding=_encoding(tree))
 
 
 def _encoding(tree: xr.DataTree) -> dict[str, dict[str, Any]]:
