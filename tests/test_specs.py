@@ -33,16 +33,16 @@ def test_shipped_document_tells_the_editor_its_schema(file: Path):
 
 
 def test_validation_of_all_shipped_documents_is_quick():
-    """It takes less than a second on a quiet machine, half of which is the import of what it cannot do without.
+    """It costs the import of what it cannot do without, half as much again, and 12 % of it for each document.
 
-    Both grow on a busy machine, so their ratio is what is tested.
+    That is 40 to 50 ms a document on a quiet machine. Both grow on a busy machine, so their ratio is what is tested.
     """
     libraries = "import networkx, numpy, pint, pydantic, ruamel.yaml, typer"
     needed = min(process_seconds([sys.executable, "-c", libraries]) for _ in range(3))
     taken = min(
         process_seconds([sys.executable, "-m", "neuromech.cli", "validate", str(ROOT / "specs")]) for _ in range(3)
     )
-    assert taken < 3.0 * needed
+    assert taken < (1.5 + 0.12 * len(SPECS)) * needed
 
 
 def process_seconds(command: list[str]) -> float:
