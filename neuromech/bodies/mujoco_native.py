@@ -17,18 +17,14 @@
 from math import cos, sin
 from typing import Any
 
-import numba
-
 from neuromech.compiler.foreign import ADDRESS, NOTHING, foreign_function
-from neuromech.compiler.numerics import Floats
+from neuromech.compiler.numerics import Floats, exactly
 from neuromech.compiler.tree import FREE_ROOT, PLANAR_ROOT
 
 _call = foreign_function(NOTHING, ADDRESS, ADDRESS)
-# As written, without fast mathematics: the same bits whatever these functions are inlined into.
-_exactly = numba.njit(cache=True, nogil=True, error_model="numpy")
 
 
-@_exactly
+@exactly
 def read(engine: tuple[Any, ...], state: Floats) -> int:
     """Fill the state array; (2 n + 13 + 3 m,), see `BodyState`. Returns 0."""
     _, root, places, positions, velocities, _, forces, _, _, _, weights, hits = engine
@@ -54,7 +50,7 @@ def read(engine: tuple[Any, ...], state: Floats) -> int:
     return 0
 
 
-@_exactly
+@exactly
 def step(engine: tuple[Any, ...], torque: Floats) -> int:
     """Apply joint torques (joints,) and advance by one step. Returns the number of warnings, 0 where all is well."""
     addresses, _, places, _, _, applied, _, warnings, pushed, _, _, _ = engine
@@ -68,7 +64,7 @@ def step(engine: tuple[Any, ...], torque: Floats) -> int:
     return total
 
 
-@_exactly
+@exactly
 def push(engine: tuple[Any, ...], segment: int, acting: Floats) -> int:
     """Let a force act on a segment during the next step; `acting` (9,) as in `Body.push`. Returns 0."""
     row = engine[8][engine[9][segment]]
@@ -82,7 +78,7 @@ def push(engine: tuple[Any, ...], segment: int, acting: Floats) -> int:
     return 0
 
 
-@_exactly
+@exactly
 def place(engine: tuple[Any, ...], weight: int, position: Floats) -> int:
     """Put a weight to a place (3,), at rest. Returns 0."""
     positions, velocities, weights = engine[3], engine[4], engine[10]
@@ -92,14 +88,14 @@ def place(engine: tuple[Any, ...], weight: int, position: Floats) -> int:
     return 0
 
 
-@_exactly
+@exactly
 def _read_planar_root(positions: Floats, velocities: Floats, pose: Floats, velocity: Floats) -> None:
     pose[0], pose[2] = positions[0], positions[1]
     pose[4], pose[6] = sin(positions[2] / 2.0), cos(positions[2] / 2.0)
     velocity[0], velocity[2], velocity[4] = velocities[0], velocities[1], velocities[2]
 
 
-@_exactly
+@exactly
 def _read_free_root(positions: Floats, velocities: Floats, pose: Floats, velocity: Floats) -> None:
     pose[:3] = positions[:3]
     pose[3:6] = positions[4:7]

@@ -26,6 +26,11 @@ def compiled(function: Callable[..., Any]) -> Any:
     return numba.njit(cache=True, nogil=True, error_model="numpy", fastmath=_FAST_MATH)(function)
 
 
+def exactly(function: Callable[..., Any]) -> Any:
+    """Compile a kernel as it is written, without fast mathematics: the same bits whatever it is inlined into."""
+    return numba.njit(cache=True, nogil=True, error_model="numpy")(function)
+
+
 def equation(function: Callable[..., Any]) -> Any:
     """Compile a function that is inlined into the kernel that calls it, so that nothing is kept on disk."""
     return numba.njit(nogil=True, error_model="numpy", fastmath=_FAST_MATH)(function)

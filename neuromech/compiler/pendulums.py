@@ -10,11 +10,11 @@ from math import atan2, cos, sin, sqrt
 
 import numpy as np
 
-from neuromech.compiler.numerics import Floats, Integers, compiled
+from neuromech.compiler.numerics import Floats, Integers, exactly
 from neuromech.graph.model import BodyModel
 from neuromech.graph.swing import HEADINGS, aimed, first_pivot, first_place
 
-_aimed = compiled(aimed)
+_aimed = exactly(aimed)
 
 # Columns of `Pendulums.numbers`.
 _MASS, _STRING, _RADIUS, _HEADING, _RELEASE, _TAKEN_AWAY, _IS_AIMED, _STAYS, _TARGET = range(9)
@@ -66,7 +66,7 @@ class Pendulums:
 NO_PENDULUMS = Pendulums(np.zeros((0, 11)), np.zeros(0, dtype=np.int64), np.zeros((0, 8)), 0.0)
 
 
-@compiled
+@exactly
 def lead(
     number: int,
     dt: float,
@@ -119,7 +119,7 @@ def lead(
     return put
 
 
-@compiled
+@exactly
 def _aim(
     gravity: float,
     pendulum: Floats,
@@ -141,7 +141,7 @@ def _aim(
     now[PLACE], now[PLACE + 1], now[PLACE + 2] = px + string * cos(heading), py + string * sin(heading), pz
 
 
-@compiled
+@exactly
 def _tension(
     dt: float, gravity: float, pendulum: Floats, now: Floats, acting: Floats, vx: float, vy: float, vz: float
 ) -> None:

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from neuromech.compiler.numerics import Floats, Integers, compiled
+from neuromech.compiler.numerics import Floats, Integers, exactly
 
 # Columns of `Pushes.numbers`: start, end, force and place; of `Pushes.places`: segment and first signal.
 _START, _END, _FORCE, _POINT, _CENTER = 0, 1, 2, 5, 8
@@ -29,7 +29,7 @@ class Pushes:
 NO_PUSHES = Pushes(np.zeros((0, COLUMNS)), np.zeros((0, 2), dtype=np.int64))
 
 
-@compiled
+@exactly
 def show_pushes(number: int, dt: float, numbers: Floats, places: Integers, s: Floats) -> None:
     """Write the forces of body step `number`, a mean over the step, into their signals."""
     for k in range(places.shape[0]):
@@ -41,14 +41,14 @@ def show_pushes(number: int, dt: float, numbers: Floats, places: Integers, s: Fl
             s[places[k, 1] + c] += share * numbers[k, _FORCE + c]
 
 
-@compiled
+@exactly
 def share_of_step(number: int, dt: float, push: Floats) -> float:
     """Return during which share of body step `number` a push acts, so that its impulse is exact."""
     share: float = max(0.0, min(push[_END], (number + 1) * dt) - max(push[_START], number * dt)) / dt
     return share
 
 
-@compiled
+@exactly
 def acting(share: float, push: Floats, segment: int, rotation: Floats, position: Floats, into: Floats) -> None:
     """Fill what an engine wants to know of a push.
 
