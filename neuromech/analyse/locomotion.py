@@ -33,6 +33,21 @@ def speed(view: View) -> float:
     return float((seen.values[-1] - seen.values[0]) / (seen.time[-1] - seen.time[0]))
 
 
+def speed_range(view: View) -> float:
+    """Return the greatest minus the least speed of `segment` along `axis`, each a mean over `average_over` (m/s).
+
+    The stretches are all that fit into the window, one from each sample on. Take some strides, so that the speed within
+    a stride does not count.
+    """
+    seen = view.window(view.coordinate(view.spec.axis))
+    stretch = view.number("average_over")
+    starts = seen.time[seen.time + stretch <= seen.time[-1] + 1e-9]
+    if len(starts) == 0:
+        raise NotMeasurableError(f"the window is shorter than {stretch:g} s")
+    ways = np.interp(starts + stretch, seen.time, seen.values) - seen.values[: len(starts)]
+    return float(np.ptp(ways) / stretch)
+
+
 def froude_number(view: View) -> float:
     """Return v² / (g L) of the speed v of `segment` along `axis` and `leg_length` L.
 

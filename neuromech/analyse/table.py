@@ -25,7 +25,15 @@ from neuromech.analyse.levels import (
     span,
     standard_deviation,
 )
-from neuromech.analyse.locomotion import distance, froude_number, heading_drift, speed, time_alive, travel_direction
+from neuromech.analyse.locomotion import (
+    distance,
+    froude_number,
+    heading_drift,
+    speed,
+    speed_range,
+    time_alive,
+    travel_direction,
+)
 from neuromech.analyse.oscillation import (
     amplitude,
     burst_duration,
@@ -92,6 +100,7 @@ _WAY = {
     "time_alive": MeasureKind(time_alive, "time", of_early_end=True, least=0.0),
     "distance": MeasureKind(distance, "length", ("segment",), ("axis",), of_early_end=True),
     "speed": MeasureKind(speed, "speed", ("segment",), ("axis",), of_early_end=True),
+    "speed_range": MeasureKind(speed_range, "speed", ("segment", "average_over"), ("axis",), least=0.0),
     "froude_number": MeasureKind(
         froude_number, "number", ("segment", "leg_length"), ("axis",), of_early_end=True, least=0.0
     ),

@@ -53,6 +53,7 @@ class Measure(SpecModel):
     units of the signal; `event` says which instant of a cycle a phase is about. Each of `feet` is a pattern of contacts
     that make up one foot, `segment` the segment whose way is measured, along `axis` of the world. Contacts and gaps
     between contacts that are shorter than `least_duration` do not count. `perturbed_at` is when a run was disturbed.
+    `average_over` is how long the stretches are over which something is averaged.
     `muscles` are patterns of muscles whose energy counts, `maintenance` says whose maintenance heat.
     """
 
@@ -72,6 +73,7 @@ class Measure(SpecModel):
     least_duration: PositiveTime | None = None
     leg_length: Annotated[Quantity, LENGTH.positive] | None = None
     perturbed_at: PositiveTime | None = None
+    average_over: PositiveTime | None = None
     muscles: Annotated[tuple[str, ...] | None, Field(min_length=1)] = None
     maintenance: Literal["wang_2012", "dzeladini_2013"] = "wang_2012"
     curve: ReferenceCurve | None = None

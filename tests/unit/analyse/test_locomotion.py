@@ -39,6 +39,16 @@ def test_distance_and_speed_along_an_axis(walk):
     assert take(recording, kind="speed", segment="trunk", after="2 s") == MeasuredValue(pytest.approx(0.6), "m/s")
 
 
+def test_speed_range_is_that_of_means_over_stretches(record, time):
+    # The speed grows from 0.2 to 1.2 m/s in 5 s, and swings by 0.5 m/s twice in a second.
+    way = 0.2 * time + 0.1 * time**2 + 0.5 / (4 * np.pi) * np.sin(4 * np.pi * time)
+    ramp = record({"trunk.x": (way, "m")})
+    found = take(ramp, kind="speed_range", segment="trunk", average_over="1 s")
+    assert found == MeasuredValue(pytest.approx(0.2 * 4.0, abs=1e-6), "m/s")
+    too_long = take(ramp, kind="speed_range", segment="trunk", average_over="6 s")
+    assert too_long.value == "the window is shorter than 6 s"
+
+
 def test_froude_number(walk):
     recording = walk(anatomy=Anatomy(6.0, 9.81, {}))
     found = take(recording, kind="froude_number", segment="trunk", leg_length="200 mm")

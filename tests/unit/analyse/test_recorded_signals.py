@@ -22,6 +22,7 @@ ARGUMENTS = {
     "tolerance": "5",
     "leg_length": "1 m",
     "perturbed_at": "3 s",
+    "average_over": "1 s",
     "curve": {"columns": ["a", "b"], "phases": [0.0, 30.0, 60.0], "values": [[0.0, 1.0, 0.0], [1.0, 0.0, 0.5]]},
 }
 
