@@ -25,6 +25,11 @@ MAKERS = {
     "pso_from_the_start": maker(5, np.full(5, 0.1), kind="pso", population=30, constricts="all"),
     "cma_es": maker(kind="cma_es"),
     "cma_es_from_a_corner": maker(3, np.array([0.0, 1.0, 0.3]), kind="cma_es", population=9),
+    "cma_es_separable": maker(kind="cma_es", covariance="separable"),
+    "cma_es_separable_in_one_dimension": maker(1, kind="cma_es", covariance="separable"),
+    "cma_es_separable_from_a_corner": maker(
+        3, np.array([0.0, 1.0, 0.3]), kind="cma_es", population=9, covariance="separable", restarts="ipop"
+    ),
     "cma_es_with_restarts": maker(3, kind="cma_es", population=4, restarts="ipop"),
 }
 EACH = pytest.mark.parametrize("make", MAKERS.values(), ids=MAKERS)
@@ -36,7 +41,7 @@ def test_algorithms_keep_the_laws(law, make):
     law(make)
 
 
-@pytest.mark.parametrize("name", ["pso", "cma_es"])
+@pytest.mark.parametrize("name", ["pso", "cma_es", "cma_es_separable"])
 def test_only_the_order_of_scores_matters(name):
     laws.only_the_order_matters(MAKERS[name])
 

@@ -20,9 +20,11 @@ def go(algorithm, judge, generations):
         algorithm.tell([judge(point) for point in algorithm.ask()])
 
 
-def test_the_distribution_is_updated_as_the_library_does():
-    ours = search(4, np.full(4, 0.4), step=0.2)
-    theirs = cmaes.CMA(np.full(4, 0.4), 0.2, np.tile([0.0, 1.0], (4, 1)), seed=0)
+@pytest.mark.parametrize(("covariance", "kind"), [("full", cmaes.CMA), ("separable", cmaes.SepCMA)])
+def test_the_distribution_is_updated_as_the_library_does(covariance, kind):
+    start = np.full(4, 0.4)
+    ours = search(4, start, step=0.2, covariance=covariance)
+    theirs = kind(np.full(4, 0.4), 0.2, np.tile([0.0, 1.0], (4, 1)), seed=0)
     for _ in range(40):
         points = ours.ask()
         values = [float(np.sum(np.arange(1.0, 5.0) * (point - 0.6) ** 2)) for point in points]
@@ -32,6 +34,29 @@ def test_the_distribution_is_updated_as_the_library_does():
     assert state["mean"] == pytest.approx(theirs.mean, rel=1e-9)
     assert state["sigma"] == pytest.approx(theirs._sigma, rel=1e-9)
     assert state["g"] == theirs.generation == 40
+    assert (start == 0.4).all(), "the library moves the document's own values"
+
+
+def evaluations_until(target, dimension, **settings):
+    """Return what an ellipsoid along the axes takes whose longest axis is a thousand times the shortest."""
+    scales = 1e3 ** (np.arange(dimension) / (dimension - 1))
+    one = search(dimension, np.full(dimension, 0.4), **settings)
+    count, best = 0, np.inf
+    while best > target:
+        values = [float(np.sum((scales * (point - 0.6)) ** 2)) for point in one.ask()]
+        one.tell([Score(0, -value) for value in values])
+        count, best = count + len(values), min(best, *values)
+    return count
+
+
+def test_a_separable_search_learns_many_independent_scales_sooner():
+    full = evaluations_until(1.0, 20)
+    assert 1.5 * evaluations_until(1.0, 20, covariance="separable") < full
+
+
+def test_a_separable_search_stores_one_number_for_each_parameter():
+    assert len(search(95, covariance="separable").state()["memory"]["C"]) == 95
+    assert len(search(95).state()["memory"]["c_1d"]) == 95 * 96 // 2
 
 
 def test_candidates_begin_around_the_documents_values():
