@@ -16,8 +16,9 @@ from neuromech.cli.films import show_left_out, write_film
 from neuromech.cli.progress import simulated_time
 from neuromech.cli.terminal import CLAIM_NOT_MET, ENDED_EARLY, FINISHED, note, write_json
 from neuromech.cli.verdicts import claims_table
-from neuromech.compiler.lower import lower, recorded
+from neuromech.compiler.lower import lower
 from neuromech.compiler.program import Program
+from neuromech.compiler.records import recorded
 from neuromech.errors import DocumentError, Problem
 from neuromech.graph.model import BodyModel, ModelGraph
 from neuromech.pipeline import build_graph, load_document

@@ -3,6 +3,7 @@
 import hashlib
 import importlib.util
 import os
+import re
 import sys
 import tempfile
 import threading
@@ -19,6 +20,7 @@ from neuromech.components.base import Component
 ENVIRONMENT_VARIABLE = "NEUROMECH_CACHE_DIR"
 
 _IMPORTING = threading.Lock()
+_KERNEL = re.compile(r"^from neuromech\.compiler\.(\w+) import", re.MULTILINE)
 
 
 def folder() -> Path:
@@ -30,11 +32,12 @@ def module_file(source: str, classes: Iterable[type[Component]], files: Iterable
     """Write the source where it is not there yet, and return its file.
 
     Machine code that numba keeps beside the file does not notice a change in what the file imports, so the name is a
-    hash of the source, of the files of all equations and kernels (and of `files`), and of the versions of numba and
-    NumPy.
+    hash of the source, of the files of all equations and of `files`, of the kernels that any of these import, and of
+    the versions of numba and NumPy.
     """
     digest = hashlib.sha256(source.encode())
-    for dependency in sorted({*_dependencies(classes), *files}):
+    own = {*_equations(classes), *files}
+    for dependency in sorted(own | _kernels([source, *(file.read_text("utf-8") for file in own)])):
         digest.update(dependency.read_bytes())
     digest.update(f"{numba.__version__} {np.__version__} {sys.version}".encode())
     file = folder() / f"step_{digest.hexdigest()[:20]}.py"
@@ -61,10 +64,22 @@ def _imported(file: Path) -> ModuleType:
     return module
 
 
-def _dependencies(classes: Iterable[type[Component]]) -> set[Path]:
-    kernels = set(Path(__file__).parent.glob("*.py"))
+def _equations(classes: Iterable[type[Component]]) -> set[Path]:
     files = (getattr(sys.modules[base.__module__], "__file__", None) for cls in classes for base in cls.__mro__[:-1])
-    return kernels | {Path(file) for file in files if file and "pydantic" not in file and file.endswith(".py")}
+    return {Path(file) for file in files if file and "pydantic" not in file and file.endswith(".py")}
+
+
+def _kernels(sources: Iterable[str]) -> set[Path]:
+    """Return the files of this package that some sources import, directly or through others."""
+    found: set[Path] = set()
+    waiting = list(sources)
+    while waiting:
+        for name in _KERNEL.findall(waiting.pop()):
+            file = Path(__file__).with_name(f"{name}.py")
+            if file not in found:
+                found.add(file)
+                waiting.append(file.read_text("utf-8"))
+    return found
 
 
 def _write(file: Path, source: str) -> None:

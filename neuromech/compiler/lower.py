@@ -23,17 +23,15 @@ from neuromech.compiler.lower_connections import connections, evaluation_order
 from neuromech.compiler.lower_paths import paths
 from neuromech.compiler.numerics import Floats
 from neuromech.compiler.program import Program
+from neuromech.compiler.records import record_groups, record_sections, recorded_names
 from neuromech.compiler.shape import COMMON, FixedStep, Shape
 from neuromech.compiler.team import SIZE as TEAM
 from neuromech.compiler.timeline import timeline
 from neuromech.compiler.tree import Tree, lower_tree
 from neuromech.errors import DocumentError
 from neuromech.graph.model import BodyModel, ModelGraph
-from neuromech.graph.signals import matching, signals, sizes, split
 
 _STAGE_ARRAYS = 4
-# Number of the array of inputs among those that are recorded from; behind it come the means.
-_INPUTS = 2
 # Synapses from which on a second thread makes a step shorter (docs/performance.md).
 _BREAK_EVEN = 300_000
 
@@ -69,7 +67,8 @@ def lower(graph: ModelGraph) -> Program:
     floats.add("muscle_step", [float(solver.muscle_step)])
     header["explicit"] = int(solver.coupling == "explicit")
     substeps = header["substeps"] = round(float(solver.body_step) / float(solver.step)) if tree else 1
-    _record_sections(graph, layout, integers, float(solver.body_step if tree else solver.step))
+    records = record_groups(graph, float(solver.body_step if tree else solver.step))
+    record_sections(records, layout, integers)
     integers.add("team", np.zeros(TEAM, dtype=np.int64))
     threads = _threads(solver.threads, connected.synapses)
     shape = Shape(
@@ -97,6 +96,7 @@ def lower(graph: ModelGraph) -> Program:
         initial=_initial(parts, layout),
         substeps=substeps,
         threads=threads,
+        records=records,
     )
 
 
@@ -109,14 +109,6 @@ def _tracked(graph: ModelGraph) -> Iterable[str]:
     for name in recorded_names(graph):
         if name.rpartition(".")[0] in segments:
             yield name.rpartition(".")[0]
-
-
-def recorded_names(graph: ModelGraph) -> Iterable[str]:
-    """Yield the names of all signals that any record group asks for."""
-    every = list(signals(graph))
-    for group in graph.document.experiment.record.values():
-        for pattern in group.signals:
-            yield from matching(pattern, every)
 
 
 def _lower_mechanics(
@@ -138,45 +130,6 @@ def _lower_mechanics(
     work.add("last_torque", n)
     work.add("work", 2 * m + n + tree.root)
     return paths(elements, tree, graph, layout, integers, floats, work)
-
-
-def _record_sections(graph: ModelGraph, layout: Layout, integers: Buffer, tick: float) -> None:
-    groups = graph.document.experiment.record.values()
-    names = [recorded(group.signals, graph) for group in groups]
-    integers.header["groups"] = len(names)
-    integers.add("group_every", [round(float(group.every) / tick) for group in groups])
-    starts = [0, *np.cumsum([len(some) for some in names], dtype=int).tolist()]
-    integers.add("group_start", starts)
-    integers.add("group_row", [0] * len(names))
-    _stretches(layout, [layout.slot(name) for some in names for name in some], starts, integers)
-    integers.add("mean_first", [some.start for some in layout.means()])
-    integers.add("mean_count", [len(some) for some in layout.means()])
-
-
-def _stretches(layout: Layout, slots: list[int], starts: list[int], integers: Buffer) -> None:
-    """Write the places of recorded signals, and where stretches begin that stand in one array: x, s, u or the means."""
-    ends = np.cumsum([layout.state_count, layout.signal_count, layout.input_count])
-    arrays = np.searchsorted(ends, slots, side="right")
-    integers.add("place", np.asarray(slots, dtype=np.int64) - np.array([0, *ends])[arrays])
-    changes = np.flatnonzero(np.diff(arrays)) + 1
-    stretches = np.unique([*starts, *changes])
-    integers.add("stretch_start", stretches)
-    integers.add("stretch_array", arrays[stretches[:-1]])
-    integers.add("group_stretch", np.searchsorted(stretches, starts))
-    integers.header["inputs_recorded"] = int((arrays >= _INPUTS).any())
-
-
-def recorded(patterns: Iterable[str], graph: ModelGraph) -> list[str]:
-    """Return the names that a record group asks for, each once, quantity by quantity.
-
-    Within a quantity they stand in authored order, then neurons of populations: a quantity's samples are one block.
-    """
-    every, populations = list(signals(graph)), sizes(graph)
-    wanted = dict.fromkeys(name for pattern in patterns for name in matching(pattern, every, populations))
-    listed = [name for name in every if name in wanted]
-    names = [*listed, *(name for name in wanted if split(name)[1] is not None)]
-    quantities = {quantity: k for k, quantity in enumerate(dict.fromkeys(name.rpartition(".")[2] for name in names))}
-    return sorted(names, key=lambda name: quantities[name.rpartition(".")[2]])
 
 
 def _fixed_step(graph: ModelGraph, parts: Iterable[Block], has_delays: bool) -> FixedStep:

@@ -9,6 +9,7 @@ import numpy as np
 from neuromech.compiler.cache import import_file
 from neuromech.compiler.layout import Layout
 from neuromech.compiler.numerics import Floats, Integers
+from neuromech.compiler.records import RecordGroup
 from neuromech.compiler.shape import Shape
 from neuromech.compiler.tree import Tree
 from neuromech.graph.model import ModelGraph
@@ -33,6 +34,7 @@ class Program:
         initial: (states,) values at time zero as the components give them, SI units.
         substeps: network steps in one tick; a tick is a body step, or a network step where there is no body.
         threads: how many share the synapses.
+        records: what is recorded.
     """
 
     graph: ModelGraph
@@ -49,6 +51,7 @@ class Program:
     initial: Floats
     substeps: int
     threads: int
+    records: tuple[RecordGroup, ...]
 
     @property
     def module(self) -> ModuleType:

@@ -1,8 +1,9 @@
 """What a run leaves behind: its outcome, its provenance, and the recorded signals with dimensions and units."""
 
 import json
-from collections.abc import Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field
+from functools import cached_property
 from typing import Any, Literal
 
 import numpy as np
@@ -126,43 +127,61 @@ class GroupData:
             raise ValueError("time must increase strictly")
         if len(set(self.names)) < len(self.names) or not all("." in name for name in self.names):
             raise ValueError("signal names must differ and have the form element.quantity")
-        for unit in self.units:
+        for unit in set(self.units):
             unit_factor(unit)
 
 
 @dataclass(frozen=True, slots=True)
-class _Column:
+class _Block:
+    """Signals side by side: times (n,), values (n, k), k units, and the time from sample to sample (s)."""
+
     time: Array
     values: Array
-    index: int
-    unit: str
-    step: float
+    units: Sequence[str]
+
+    @property
+    def step(self) -> float:
+        return float((self.time[-1] - self.time[0]) / (len(self.time) - 1)) if len(self.time) > 1 else np.inf
+
+
+_Places = dict[str, tuple[_Block, int]]
 
 
 class Recording:
-    """Recorded signals and their provenance, around an xarray tree with one node per record group.
+    """Recorded signals and their provenance.
 
-    A node has a coordinate `time` (s) and one variable per quantity with the dimensions (time, element): `activity`
-    has the coordinate `activity_element` that holds the qualified names of its elements.
+    A search looks at a few signals of thousands of recordings, so that labels are put on when somebody asks for them.
     """
 
-    def __init__(self, tree: xr.DataTree) -> None:
-        """Wrap a tree made by `from_groups` or read from a results file.
+    def __init__(self, provenance: Provenance, places: _Places, tree: Callable[[], xr.DataTree]) -> None:
+        """Take what `from_groups` and `from_tree` found; `tree` is called at most once."""
+        self.provenance = provenance
+        self._places = places
+        self._labelled = tree
+
+    @classmethod
+    def from_groups(cls, groups: Mapping[str, GroupData], provenance: Provenance) -> "Recording":
+        """Build a recording from arrays, one entry per record group."""
+        return cls(provenance, _places_in_groups(groups.values()), lambda: _tree(groups, provenance))
+
+    @classmethod
+    def from_tree(cls, tree: xr.DataTree) -> "Recording":
+        """Wrap a tree that was read from a results file.
 
         Raises:
             KeyError: the tree has no provenance of ours.
             ValueError: its provenance is malformed.
         """
-        self.tree = tree
-        self.provenance = Provenance.from_attributes(tree.attrs)
-        self._columns = _index(tree)
+        return cls(Provenance.from_attributes(tree.attrs), _places_in_tree(tree), lambda: tree)
 
-    @classmethod
-    def from_groups(cls, groups: Mapping[str, GroupData], provenance: Provenance) -> "Recording":
-        """Build a recording from arrays, one entry per record group."""
-        nodes = {f"/{name}": _dataset(data) for name, data in groups.items()}
-        root = xr.Dataset(attrs=provenance.to_attributes())
-        return cls(xr.DataTree.from_dict({"/": root, **nodes}))
+    @cached_property
+    def tree(self) -> xr.DataTree:
+        """All of it as an xarray tree with one node per record group.
+
+        A node has a coordinate `time` (s) and one variable per quantity with the dimensions (time, element):
+        `activity` has the coordinate `activity_element` that holds the qualified names of its elements.
+        """
+        return self._labelled()
 
     @property
     def outcome(self) -> Outcome:
@@ -172,12 +191,12 @@ class Recording:
     @property
     def names(self) -> list[str]:
         """Qualified names of all signals, in recorded order."""
-        return list(self._columns)
+        return list(self._places)
 
     def match(self, *patterns: str) -> list[str]:
         """Return the signals that match any of the patterns (`*`, `?`, `pool[0:10]`), in recorded order."""
-        found = {name for pattern in patterns for name in matching(pattern, self._columns)}
-        return [name for name in self._columns if name in found]
+        found = {name for pattern in patterns for name in matching(pattern, self._places)}
+        return [name for name in self._places if name in found]
 
     def signal(self, name: str) -> tuple[Array, Array]:
         """Return the times (s), shape (n,), and values, shape (n,), of a signal.
@@ -187,8 +206,8 @@ class Recording:
         Raises:
             RecordingError: the signal was not recorded.
         """
-        column = self._column(name)
-        return column.time, np.ascontiguousarray(column.values[:, column.index])
+        block, column = self._place(name)
+        return block.time, np.ascontiguousarray(block.values[:, column])
 
     def unit(self, name: str) -> str:
         """Return the unit of a signal, empty for a number.
@@ -196,12 +215,18 @@ class Recording:
         Raises:
             RecordingError: the signal was not recorded.
         """
-        return self._column(name).unit
+        block, column = self._place(name)
+        return block.units[column]
 
-    def _column(self, name: str) -> _Column:
-        if name not in self._columns:
-            raise RecordingError(f"signal '{name}' was not recorded. Hint: {did_you_mean(name, self._columns)}")
-        return self._columns[name]
+    def _place(self, name: str) -> tuple[_Block, int]:
+        if name not in self._places:
+            raise RecordingError(f"signal '{name}' was not recorded. Hint: {did_you_mean(name, self._places)}")
+        return self._places[name]
+
+
+def _tree(groups: Mapping[str, GroupData], provenance: Provenance) -> xr.DataTree:
+    nodes = {f"/{name}": _dataset(data) for name, data in groups.items()}
+    return xr.DataTree.from_dict({"/": xr.Dataset(attrs=provenance.to_attributes()), **nodes})
 
 
 def _dataset(data: GroupData) -> xr.Dataset:
@@ -239,20 +264,32 @@ def _word(unit: str) -> str:
     return unit.replace("/", " per ").replace("^", "").replace("  ", " ").strip().replace(" ", "_") or "number"
 
 
-def _index(tree: xr.DataTree) -> dict[str, _Column]:
-    """Return where each signal is; the recorded order of a group is in its attribute `signals`."""
-    found: dict[str, _Column] = {}
+def _places_in_groups(groups: Iterable[GroupData]) -> _Places:
+    """Return where each signal is, of several places the one with the finest steps."""
+    found: _Places = {}
+    for group in groups:
+        block = _Block(group.time, group.values, group.units)
+        _add_finer(found, {name: (block, column) for column, name in enumerate(group.names)})
+    return found
+
+
+def _places_in_tree(tree: xr.DataTree) -> _Places:
+    """Return the same for a tree; the recorded order of a group is in its attribute `signals`."""
+    found: _Places = {}
     for node in tree.children.values():
         data = node.to_dataset()
-        time = np.asarray(data["time"].values)
-        step = float((time[-1] - time[0]) / (len(time) - 1)) if len(time) > 1 else np.inf
-        columns: dict[str, _Column] = {}
+        time, places = np.asarray(data["time"].values), _Places()
         for name in data.data_vars:
             variable = data.variables[name]
-            values, unit, quantity = variable.values, str(variable.attrs["units"]), variable.attrs["quantity"]
-            for index, element in enumerate(data.variables[f"{name}_element"].values.tolist()):
-                columns[f"{element}.{quantity}"] = _Column(time, values, index, unit, step)
-        for signal in json.loads(node.attrs["signals"]):
-            if signal not in found or step < found[signal].step:
-                found[signal] = columns[signal]
+            elements, quantity = data.variables[f"{name}_element"].values.tolist(), variable.attrs["quantity"]
+            block = _Block(time, variable.values, [str(variable.attrs["units"])] * len(elements))
+            places |= {f"{element}.{quantity}": (block, column) for column, element in enumerate(elements)}
+        ordered = {signal: places[signal] for signal in json.loads(node.attrs["signals"])}
+        _add_finer(found, ordered)
     return found
+
+
+def _add_finer(found: _Places, places: _Places) -> None:
+    for name, (block, column) in places.items():
+        if name not in found or block.step < found[name][0].step:
+            found[name] = (block, column)

@@ -54,7 +54,7 @@ def load(file: Path) -> Recording:
             tree = opened.load()
         if tree.attrs.pop("format", None) != FORMAT:
             raise _foreign(file)
-        return Recording(tree)
+        return Recording.from_tree(tree)
     except (OSError, KeyError, ValueError, TypeError) as error:
         raise _foreign(file) from error
 

@@ -3,9 +3,10 @@
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
-from neuromech.compiler.lower import lower, recorded
+from neuromech.compiler.lower import lower
 from neuromech.compiler.program import Program
 from neuromech.compiler.rebind import fixed_uses, rebound
+from neuromech.compiler.records import recorded
 from neuromech.components.catalogue import Catalogue
 from neuromech.graph.build import build
 from neuromech.graph.check import check

@@ -46,6 +46,13 @@ def test_documents_that_differ_in_numbers_share_one_file():
     assert lowered(CAT / "leg_cpg.yaml", "solver.method=exponential_euler").module_file != first.module_file
 
 
+@pytest.mark.parametrize(("changed", "is_new"), [("exponential.py", True), ("numerics.py", True), ("lower.py", False)])
+def test_code_is_made_anew_when_a_kernel_changes_that_it_imports_directly_or_not(changed, is_new, monkeypatch):
+    file, read = lowered(CAT / "leg_cpg.yaml").module_file, Path.read_bytes
+    monkeypatch.setattr(Path, "read_bytes", lambda path: read(path) + (b"#" if path.name == changed else b""))
+    assert (lowered(CAT / "leg_cpg.yaml").module_file != file) == is_new
+
+
 def test_the_number_of_instances_does_not_change_the_code():
     """One leg and four, but for the drive that only the four have."""
     one, four = (lowered(CAT / f"{name}_cpg.yaml").source.splitlines() for name in ("leg", "quadruped"))

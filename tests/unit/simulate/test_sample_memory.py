@@ -1,9 +1,12 @@
 """Memory for samples: lent again only when nobody looks at it, and not without limit."""
 
+import gc
+
 import numpy as np
 import pytest
 
 from neuromech.simulate import sample_memory
+from neuromech.simulate.recording import GroupData, Outcome, Provenance, Recording
 from neuromech.simulate.sample_memory import borrowed
 
 
@@ -56,3 +59,18 @@ def test_unused_memory_does_not_grow_without_limit(monkeypatch):
 
 def test_no_numbers_need_no_memory():
     assert borrowed(0).shape == (0,)
+
+
+def test_memory_of_a_recording_comes_back_at_once_and_not_when_cycles_are_collected():
+    memory = borrowed(1000)
+    where = place(memory)
+    group = GroupData(np.arange(100.0), ("A.force", "B.force"), memory[:200].reshape(100, 2), ("N", "N"))
+    origin = Provenance("x", "", "0", {}, "none", "", 0, {}, Outcome("finished", 1.0), 1.0, 1.0)
+    recording = Recording.from_groups({"all": group}, origin)
+    gc.disable()
+    try:
+        assert recording.unit("B.force") == "N"
+        del memory, group, recording
+        assert place(borrowed(1000)) == where
+    finally:
+        gc.enable()
