@@ -7,7 +7,7 @@ from pathlib import Path
 from neuromech.cli.executors import check_executor, open_executor
 from neuromech.cli.files import folder_name
 from neuromech.cli.interrupt import stop_on_signals
-from neuromech.cli.scores import score_text
+from neuromech.cli.scores import evaluation_text
 from neuromech.cli.search_progress import search_progress
 from neuromech.cli.terminal import ENDED_EARLY, FINISHED, note
 from neuromech.errors import StudyError
@@ -18,7 +18,7 @@ from neuromech.spec.document import Document
 from neuromech.study.database import Database
 from neuromech.study.driver import Search
 from neuromech.study.evaluate import Evaluator
-from neuromech.study.history import best_of
+from neuromech.study.history import best_of, confirmed
 from neuromech.study.plan import Plan
 from neuromech.study.storage import StoredStudy
 from neuromech.study.write_back import write_back
@@ -87,9 +87,15 @@ def optimize(request: Request) -> int:
     _conclude(request, opened, search)
     if ending == "complete":
         return FINISHED
-    done = f"{len(search.evaluations)} of {opened.plan.evaluations} evaluations"
-    note(f"stopped after {done}, all of them stored; to go on: {request.command()}")
+    note(f"stopped after {_done(opened, search)}, all of them stored; to go on: {request.command()}")
     return ENDED_EARLY
+
+
+def _done(opened: _Opened, search: Search) -> str:
+    """Return in words how far a search is."""
+    confirming = sum(one.confirms is not None for one in search.evaluations)
+    searched = f"{len(search.evaluations) - confirming} of {opened.plan.evaluations} evaluations"
+    return f"{searched} and {confirming} that confirm them" if confirming else searched
 
 
 def _open(request: Request, written: Document, name: str, database: Database) -> _Opened:
@@ -150,11 +156,13 @@ def _conclude(request: Request, opened: _Opened, search: Search) -> None:
         with style():
             note(f"wrote {save(figure, folder / FIGURE)[0]}")
     found = best_of(search.evaluations)
-    if found is None or found.score is None:
+    if found is None:
+        if confirmed(search.evaluations):
+            note("every candidate crashed or diverged with fresh seeds, so none is confirmed")
         return
-    score = score_text(found.score, stages)
-    note(f"best: evaluation {found.number}, score {score}")
+    words = evaluation_text(found, stages)
+    note(f"best: {words}")
     if request.write is not None:
-        origin = f"study {opened.name}, evaluation {found.number}, score {score}"
+        origin = f"study {opened.name}, {words}"
         write_back(opened.plan.document, found.parameters, origin, request.write)
         note(f"wrote {request.write}")

@@ -32,7 +32,7 @@ def search_progress(stages: Sequence[str], shown: bool) -> Iterator[Report]:
 def standing_text(standing: Standing, stages: Sequence[str]) -> str:
     """Return how far a search is, on one line."""
     parts = [
-        f"generation {standing.generation}",
+        "confirming" if standing.is_confirming else f"generation {standing.generation}",
         f"{standing.done} of {standing.total}",
         f"best {score_text(standing.best, stages)}",
         f"median {score_text(standing.median, stages)}",
@@ -46,7 +46,7 @@ def standing_text(standing: Standing, stages: Sequence[str]) -> str:
 
 
 class _Lines:
-    """Writes a line at the end of each generation, and one at the end."""
+    """Writes a line at the end of each generation, one at the end of the search, and one at the end."""
 
     def __init__(self, stages: Sequence[str]) -> None:
         self._stages = stages
@@ -54,6 +54,8 @@ class _Lines:
         self._told: Standing | None = None
 
     def __call__(self, standing: Standing) -> None:
+        if standing.is_confirming and self._latest is not None and not self._latest.is_confirming:
+            self.end()
         if self._latest is not None and standing.generation > self._latest.generation:
             self._tell(standing)
         self._latest = standing

@@ -9,7 +9,7 @@ from rich.table import Table
 from rich.text import Text
 
 from neuromech.cli.consoles import results
-from neuromech.cli.scores import score_text
+from neuromech.cli.scores import evaluation_text, score_text
 from neuromech.cli.terminal import FINISHED, note, write_json, write_line
 from neuromech.errors import StudyError
 from neuromech.report.convergence import convergence_figure
@@ -18,7 +18,7 @@ from neuromech.study.database import Database
 from neuromech.study.evaluation import Evaluation
 from neuromech.study.export import export as write_table
 from neuromech.study.header import Header
-from neuromech.study.history import Generation, best_of, failures, generations
+from neuromech.study.history import Confirmed, Generation, best_of, confirmed, failures, generations
 
 SHOWN_GENERATIONS = 20
 SHOWN_NUMBERS = 8
@@ -53,7 +53,7 @@ def best(place: str, name: str | None, as_json: bool) -> int:
     if as_json:
         write_json(found.to_dict())
         return FINISHED
-    write_line(f"evaluation {found.number}, score {score_text(found.score, header.stages)}")
+    write_line(evaluation_text(found, header.stages))
     results().print(_parameters(found))
     results().print(_measures(found))
     return FINISHED
@@ -83,6 +83,10 @@ def as_dict(name: str, header: Header, evaluations: Sequence[Evaluation]) -> dic
         "versions": dict(header.versions),
         "evaluations": len(evaluations),
         "best": None if found is None else found.to_dict(),
+        "confirmed": [
+            {"evaluation": one.evaluation.to_dict(), "searched": one.searched and asdict(one.searched)}
+            for one in confirmed(evaluations)
+        ],
         "generations": [asdict(generation) for generation in generations(evaluations)],
         "failures": [{"message": message, "evaluations": numbers} for message, numbers in failures(evaluations)],
     }
@@ -113,15 +117,17 @@ def _show(name: str, header: Header, evaluations: Sequence[Evaluation]) -> None:
     table.add_column(overflow="fold")
     table.add_row("document", Text(f"{header.document} ({header.file})"))
     table.add_row("seed", str(header.seed))
-    table.add_row("evaluations", str(len(evaluations)))
+    table.add_row("evaluations", str(sum(one.confirms is None for one in evaluations)))
     table.add_row("crashed or diverged", str(sum(one.score is None for one in evaluations)))
     table.add_row("fell", str(sum(one.fell for one in evaluations)))
     if found is not None:
-        table.add_row("best", Text(f"{score_text(found.score, header.stages)} (evaluation {found.number})"))
+        table.add_row("best", Text(evaluation_text(found, header.stages)))
         table.add_row("median of the last generation", Text(score_text(history[-1].median, header.stages)))
     results().print(table)
     if history:
         results().print(_history(history, header.stages))
+    if confirmed(evaluations):
+        results().print(_confirmed(confirmed(evaluations), header.stages))
     for message, numbers in failures(evaluations):
         shown = ", ".join(map(str, numbers[:SHOWN_NUMBERS])) + (", …" if len(numbers) > SHOWN_NUMBERS else "")
         write_line(f"failed {len(numbers)} × ({shown}): {message}")
@@ -136,6 +142,17 @@ def _history(history: Sequence[Generation], stages: Sequence[str]) -> Table:
     for one in history[-SHOWN_GENERATIONS:]:
         scores = (score_text(one.best, stages), score_text(one.median, stages))
         table.add_row(str(one.number), str(one.evaluations), *map(Text, scores), str(one.failed), str(one.fell))
+    return table
+
+
+def _confirmed(found: Sequence[Confirmed], stages: Sequence[str]) -> Table:
+    """Return what was evaluated again, with the score in the search beside the one with fresh seeds."""
+    table = Table("evaluation", "confirms", "score in the search", "score", "fell", box=None, pad_edge=False)
+    for one in found:
+        again = one.evaluation
+        scores = ("" if one.searched is None else score_text(one.searched, stages), score_text(again.score, stages))
+        fell = sum(run.kind == "fell" for run in again.runs)
+        table.add_row(str(again.number), str(again.confirms), *map(Text, scores), f"{fell} of {len(again.runs)} runs")
     return table
 
 

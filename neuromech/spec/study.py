@@ -124,6 +124,16 @@ class EarlyStop(SpecModel):
     at: PositiveTime
 
 
+class Confirm(SpecModel):
+    """After the search, its best `candidates` and its center are run again in every scenario, with fresh `seeds`.
+
+    The seeds are new to all candidates and the same for all of them. The best of these evaluations is the result.
+    """
+
+    candidates: Annotated[PositiveCount, Field(description="how many of the best, at most")] = 8
+    seeds: Annotated[PositiveCount, Field(description="how many runs in each scenario")] = 10
+
+
 class Study(SpecModel):
     """A search over parameters of the document. `algorithm` has a `kind` and the settings of that algorithm."""
 
@@ -136,3 +146,4 @@ class Study(SpecModel):
     combine: Literal["mean", "worst"] = "mean"
     objective: Objective
     stop_early: EarlyStop | None = None
+    confirm: Confirm | None = None

@@ -4,19 +4,21 @@ Whatever ends the process, and whenever, a search that is resumed gives the same
 interrupted. Its numbers depend on what is stored in order: an evaluation counts once it is stored as a whole, the state
 of the algorithm is stored after the last evaluation of a generation and before the first one of the next. From a state
 the algorithm asks for the same candidates again, and those that are stored are not evaluated a second time.
+
+Where the study confirms its best candidates, they are evaluated as another generation, which nobody is told of.
 """
 
 from collections import Counter
 from collections.abc import Callable, Sequence
 from typing import Literal
 
-import numpy as np
-
-from neuromech.errors import RunError, StudyError
+from neuromech.errors import RunError
+from neuromech.study.confirmation import Confirmation, contenders
 from neuromech.study.evaluation import Evaluation, Job
 from neuromech.study.executors import Done, Executor, Stop
 from neuromech.study.plan import Plan
 from neuromech.study.progress import Report, Tally
+from neuromech.study.register import Register
 from neuromech.study.stopping import thresholds
 from neuromech.study.storage import Boundary, StoredStudy
 from neuromech.study.writer import Writer
@@ -44,9 +46,7 @@ class Search:
         self._stored = stored
         self._report = report
         self._algorithm = plan.algorithm()
-        trials = stored.trials()
-        self._begun = {trial.number: trial.parameters for trial in trials}
-        self._found = {trial.number: trial.evaluation for trial in trials if trial.evaluation is not None}
+        self._register = Register(stored.trials())
         self._at = stored.boundary() or Boundary(0, 0, {})
         if self._at.generation:
             self._algorithm.restore(self._at.state)
@@ -54,13 +54,15 @@ class Search:
 
     @property
     def evaluations(self) -> list[Evaluation]:
-        """The complete evaluations so far, by number."""
-        return [self._found[number] for number in sorted(self._found)]
+        """The complete evaluations so far, by number; those that confirm others included."""
+        return self._register.evaluations
 
     @property
     def is_complete(self) -> bool:
-        """Whether the evaluations are used up."""
-        return len(self._found) >= self._plan.evaluations
+        """Whether the evaluations are used up, and the best are confirmed where that is asked for."""
+        if len(self._register.searched) < self._plan.evaluations:
+            return False
+        return all(map(self._register.is_complete, self._confirming_jobs()))
 
     def run(self, executor: Executor, task: Task, stop: Stop) -> Ending:
         """Search until the evaluations are used up, or `stop` turns true.
@@ -77,19 +79,23 @@ class Search:
         """
         self._tally.start()
         with Writer(self._stored, self._plan.space) as writer:
+
+            def evaluate(jobs: Sequence[Job]) -> bool:
+                self._evaluate(jobs, executor, task, stop, writer)
+                return all(map(self._register.is_complete, jobs))
+
             while self._at.evaluations < self._plan.evaluations:
                 jobs = self._jobs()
                 asked = jobs[: self._plan.evaluations - self._at.evaluations]
-                self._evaluate(asked, executor, task, stop, writer)
-                if not all(job.number in self._found for job in asked):
+                if not evaluate(asked):
                     return "stopped"
                 if len(asked) < len(jobs):
                     break
                 self._tell(jobs, writer)
-        return "complete"
+            return "complete" if evaluate(self._confirming_jobs()) else "stopped"
 
     def _counted(self) -> Tally:
-        """Return the tally of what earlier sessions did."""
+        """Return the tally of what was done before."""
         tally = Tally(self._plan.evaluations)
         for evaluation in self.evaluations:
             tally.add(evaluation, fresh=False)
@@ -100,56 +106,51 @@ class Search:
         """Return the jobs of the generation.
 
         Raises:
-            StudyError: they are not those that an earlier session stored.
+            StudyError: they are not those that were stored before.
         """
-        first, generation = self._at.evaluations, self._at.generation
+        generation = self._at.generation
         seeds = self._plan.scenarios.seeds(generation)
-        limits = thresholds([one for one in self.evaluations if one.generation < generation])
-        points = self._algorithm.ask()
+        limits = thresholds([one for one in self._register.searched if one.generation < generation])
         jobs = [
-            Job(first + index, generation, index, tuple(map(float, point)), seeds, limits)
-            for index, point in enumerate(points)
+            Job(0, generation, index, self._plan.space.parameters(point), seeds, limits)
+            for index, point in enumerate(self._algorithm.ask())
         ]
-        for job in jobs:
-            stored = self._begun.get(job.number)
-            if stored is not None and stored != self._plan.space.parameters(np.array(job.point)):
-                hint = "resume with the versions of the packages that the study was begun with"
-                raise StudyError(
-                    f"evaluation {job.number} is stored with other parameters than it has now. Hint: {hint}"
-                )
-        return jobs
+        return self._register.numbered(jobs)
+
+    def _confirming_jobs(self) -> list[Job]:
+        """Return the jobs that confirm the best candidates, where that is asked for: a generation after the last."""
+        confirmation: Confirmation | None = self._plan.confirmation
+        if confirmation is None:
+            return []
+        searched = self._register.searched
+        generation = 1 + max((one.generation for one in searched), default=-1)
+        seeds = confirmation.scenarios.seeds(generation)
+        found = contenders(searched, self._algorithm.centers(), self._plan.space, confirmation.candidates)
+        return self._register.numbered(
+            [
+                Job(0, generation, index, parameters, seeds, confirms=origin)
+                for index, (origin, parameters) in enumerate(found)
+            ]
+        )
 
     def _evaluate(self, jobs: Sequence[Job], executor: Executor, task: Task, stop: Stop, writer: Writer) -> None:
         """Carry out the jobs that are not stored yet."""
-        missing = [job for job in jobs if job.number not in self._found]
+        missing = [job for job in jobs if not self._register.is_complete(job)]
         if not missing or stop():
             return
+        self._tally.expect(missing)
         writer.begin(missing)
+        self._register.begin(missing)
         for done in executor.run(task, missing, stop):
-            evaluation = done.result or self._crashed(done)
-            self._found[evaluation.number] = evaluation
+            evaluation = done.result or _crashed(done)
+            self._register.finish(evaluation)
             writer.finish(evaluation)
             self._tally.add(evaluation)
             self._report(self._tally.standing())
 
-    def _crashed(self, done: Done[Job, Evaluation]) -> Evaluation:
-        """Return the evaluation of a candidate whose process or whose Python code crashed."""
-        job = done.job
-        return Evaluation(
-            number=job.number,
-            generation=job.generation,
-            index=job.index,
-            parameters=self._plan.space.parameters(np.array(job.point)),
-            runs=(),
-            score=None,
-            failure=done.crash,
-            wall_seconds=done.seconds,
-            simulated_seconds=0.0,
-        )
-
     def _tell(self, jobs: Sequence[Job], writer: Writer) -> None:
         """End a generation."""
-        found = [self._found[job.number] for job in jobs]
+        found = [self._register.of(job) for job in jobs]
         scores = [one.score for one in found]
         if self._tally.best is None:
             most, _ = Counter(str(one.failure) for one in found).most_common(1)[0]
@@ -159,3 +160,20 @@ class Search:
         writer.set_boundary(self._at)
         self._tally.end_generation(scores)
         self._report(self._tally.standing())
+
+
+def _crashed(done: Done[Job, Evaluation]) -> Evaluation:
+    """Return the evaluation of a candidate whose process or whose Python code crashed."""
+    job = done.job
+    return Evaluation(
+        number=job.number,
+        generation=job.generation,
+        index=job.index,
+        parameters=job.parameters,
+        runs=(),
+        score=None,
+        failure=done.crash,
+        wall_seconds=done.seconds,
+        simulated_seconds=0.0,
+        confirms=job.confirms,
+    )

@@ -6,8 +6,6 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from neuromech.compiler.program import Program
 from neuromech.components.catalogue import Catalogue
 from neuromech.errors import DocumentError
@@ -19,6 +17,7 @@ from neuromech.spec.includes import compose
 from neuromech.spec.load import load_composed
 from neuromech.spec.study import EarlyStop
 from neuromech.study.checks import check_study
+from neuromech.study.confirmation import Confirmation
 from neuromech.study.evaluation import Evaluation, Job, RunResult
 from neuromech.study.objective import Grade, Objective
 from neuromech.study.programs import ScenarioProgram
@@ -51,6 +50,7 @@ class Evaluator:
         self.study = check_study(graph, self._composed, self._overrides)
         self.space = Space.of(self.document)
         self.scenarios = Scenarios.of(self.document)
+        self.confirmation = Confirmation.of(self.document)
         self.objective = Objective.of(self.study)
         self._forget()
 
@@ -85,30 +85,43 @@ class Evaluator:
             MeasureError: a measure does not fit what was recorded.
         """
         started = time.perf_counter()
-        parameters = self.space.parameters(np.array(job.point))
+        scenarios = self._scenarios(job)
         runs: list[RunResult] = []
         grades: list[Grade] = []
-        failure = self._failure(job, parameters, runs, grades)
+        failure = self._failure(job, scenarios, runs, grades)
         return Evaluation(
             number=job.number,
             generation=job.generation,
             index=job.index,
-            parameters=parameters,
+            parameters=job.parameters,
             runs=tuple(runs),
-            score=self.objective.score(grades, self.scenarios.weights) if failure is None else None,
+            score=self.objective.score(grades, scenarios.weights) if failure is None else None,
             failure=failure,
             wall_seconds=time.perf_counter() - started,
             simulated_seconds=sum(run.time for run in runs),
+            confirms=job.confirms,
         )
 
-    def _failure(self, job: Job, parameters: dict[str, str], runs: list[RunResult], grades: list[Grade]) -> str | None:
+    def _scenarios(self, job: Job) -> Scenarios:
+        """Return the runs of a job.
+
+        Raises:
+            ValueError: it confirms another one, and the study does not ask for that.
+        """
+        if job.confirms is None:
+            return self.scenarios
+        if self.confirmation is None:
+            raise ValueError("a study without 'confirm' has no runs that confirm a candidate")
+        return self.confirmation.scenarios
+
+    def _failure(self, job: Job, scenarios: Scenarios, runs: list[RunResult], grades: list[Grade]) -> str | None:
         """Run the candidate, adding to `runs` and `grades`; return what failed, if anything did."""
         thresholds = job.thresholds or (None,) * len(job.seeds)
         programs: dict[str, Program] = {}
-        for planned, seed, threshold in zip(self.scenarios.runs, job.seeds, thresholds, strict=True):
+        for planned, seed, threshold in zip(scenarios.runs, job.seeds, thresholds, strict=True):
             try:
                 if planned.scenario not in programs:
-                    programs[planned.scenario] = self._scenario(planned.scenario).program(parameters)
+                    programs[planned.scenario] = self._scenario(planned.scenario).program(job.parameters)
             except DocumentError as error:
                 return str(error)
             look = _Look(self.objective, threshold)

@@ -2,11 +2,18 @@
 
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
-from typing import Any, Literal
+from typing import Any, Final, Literal
 
 from neuromech.study.score import Score
 
 Value = float | str
+Parameters = Mapping[str, str]
+"""What is set: name → value with unit, as written into the document."""
+
+CENTER: Final = "center"
+"""The place where the algorithm stands, beside its candidates."""
+
+Confirms = int | Literal["center"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -17,17 +24,19 @@ class Job:
         number: of the evaluation in the study, from 0.
         generation: from 0.
         index: of the candidate in its generation, from 0.
-        point: (dimension,) coordinates in 0…1.
+        parameters: what it sets, name -> value with unit.
         seeds: the seed of each run, in the order of `neuromech.study.scenarios.Scenarios.runs`.
         thresholds: for each run the partial score below which it is ended early; empty where no run is.
+        confirms: number of the evaluation that this one confirms after the search, or `CENTER`; None in the search.
     """
 
     number: int
     generation: int
     index: int
-    point: tuple[float, ...]
+    parameters: Parameters
     seeds: tuple[int, ...]
     thresholds: tuple[Score, ...] = ()
+    confirms: Confirms | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,23 +73,25 @@ class Evaluation:
         number: of the evaluation in the study, from 0.
         generation: from 0.
         index: of the candidate in its generation, from 0.
-        parameters: what was tuned, as written into the document (name -> value with unit).
+        parameters: what was tuned, name -> value with unit.
         runs: in the order of the seeds of the job; a crash leaves out the runs after it.
         score: None where a run crashed or diverged.
         failure: what crashed or diverged, None where nothing did.
         wall_seconds: time that the evaluation took on the clock (s).
         simulated_seconds: simulated time of all runs (s).
+        confirms: number of the evaluation that this one confirms after the search, or `CENTER`; None in the search.
     """
 
     number: int
     generation: int
     index: int
-    parameters: Mapping[str, str]
+    parameters: Parameters
     runs: tuple[RunResult, ...]
     score: Score | None
     failure: str | None
     wall_seconds: float
     simulated_seconds: float
+    confirms: Confirms | None = None
 
     @property
     def seeds(self) -> tuple[int, ...]:

@@ -17,13 +17,15 @@ def dataset(header: Header, evaluations: Sequence[Evaluation]) -> xr.Dataset:
     """Return a study as a dataset of the dimensions `evaluation` and `run`.
 
     `parameter:NAME` are in the unit of the document (attribute `units`), `measure:NAME` in SI units. Where a number
-    could not be measured, or a candidate failed, there is NaN; `outcome` and `failure` say what happened.
+    could not be measured, or a candidate failed, there is NaN; `outcome` and `failure` say what happened. `confirms` is
+    the number of the evaluation that this one confirms after the search, `center`, or empty.
     """
     columns: dict[str, tuple[tuple[str, ...], object] | tuple[tuple[str, ...], object, dict[str, str]]] = {
         "generation": (("evaluation",), [one.generation for one in evaluations]),
         "index": (("evaluation",), [one.index for one in evaluations]),
         "stage": (("evaluation",), [-1 if one.score is None else one.score.stage for one in evaluations]),
         "score": (("evaluation",), [np.nan if one.score is None else one.score.value for one in evaluations]),
+        "confirms": (("evaluation",), ["" if one.confirms is None else str(one.confirms) for one in evaluations]),
         "failure": (("evaluation",), [one.failure or "" for one in evaluations]),
         "wall_seconds": (("evaluation",), [one.wall_seconds for one in evaluations], {"units": "s"}),
         "simulated_seconds": (("evaluation",), [one.simulated_seconds for one in evaluations], {"units": "s"}),

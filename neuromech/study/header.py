@@ -16,7 +16,7 @@ from neuromech.spec.reader import parse
 from neuromech.study.space import Space
 
 PACKAGES = ("neuromech", "numpy", "scipy", "numba", "pybullet")
-_FREE = ("name", "description", "references", "claims", "sweeps", "study.evaluations")
+_FREE = ("name", "description", "references", "claims", "sweeps", "study.evaluations", "study.confirm")
 _FREE_OF_PARAMETERS = ("description", "source")
 
 
@@ -82,7 +82,7 @@ class Header:
     def changes(self, now: Self) -> list[Change]:
         """Return what a study that goes on would do differently from this one, by path.
 
-        Names, descriptions, references, claims, sweeps and the number of evaluations are free to change.
+        Names, descriptions, references, claims, sweeps, the number of evaluations and `confirm` are free to change.
         """
         found = changes_of(self.specification, now.specification, _is_free)
         if self.seed != now.seed:

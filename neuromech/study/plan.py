@@ -7,6 +7,7 @@ from neuromech.errors import DocumentError
 from neuromech.spec.document import Document
 from neuromech.study.algorithms.base import Algorithm, Settings
 from neuromech.study.algorithms.catalogue import AlgorithmCatalogue
+from neuromech.study.confirmation import Confirmation
 from neuromech.study.header import Header
 from neuromech.study.scenarios import Scenarios
 from neuromech.study.space import Space
@@ -21,6 +22,7 @@ class Plan:
         header: what identifies the study.
         space: what is tuned.
         scenarios: the runs of each candidate.
+        confirmation: how the best are confirmed; None where they are not.
         settings: of the algorithm.
         evaluations: how many candidates are evaluated.
         seed: of the study.
@@ -30,6 +32,7 @@ class Plan:
     header: Header
     space: Space
     scenarios: Scenarios
+    confirmation: Confirmation | None
     settings: Settings
     evaluations: int
     seed: int
@@ -55,6 +58,7 @@ class Plan:
             header=Header.of(written or document, study.seed),
             space=Space.of(document),
             scenarios=Scenarios.of(document),
+            confirmation=Confirmation.of(document),
             settings=AlgorithmCatalogue.installed().settings(study.algorithm, mark=document.mark),
             evaluations=study.evaluations,
             seed=study.seed,

@@ -4,7 +4,7 @@ import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from neuromech.study.evaluation import Evaluation
+from neuromech.study.evaluation import Evaluation, Job
 from neuromech.study.score import Score
 
 
@@ -15,8 +15,8 @@ class Standing:
     Args:
         generation: the one that is evaluated, from 0.
         done: how many evaluations are complete, those of earlier sessions included.
-        total: how many there will be.
-        best: the best score so far, None before the first one.
+        total: how many there will be, as far as is known.
+        best: the best score so far, None before the first one; while the best are confirmed, the best of these.
         median: median score of the latest complete generation, failed candidates counting as worst; None where half of
             them failed, or before there is one.
         crashed: how many candidates crashed or diverged.
@@ -24,6 +24,7 @@ class Standing:
         rate: evaluations per second since this start of it (1/s), 0 before the first one.
         real_time_factor: simulated seconds per second on the clock since this start of it.
         remaining: seconds until the end at this rate; None before the first evaluation since this start of it.
+        is_confirming: whether the search is over and its best are confirmed.
     """
 
     generation: int
@@ -36,6 +37,7 @@ class Standing:
     rate: float
     real_time_factor: float
     remaining: float | None
+    is_confirming: bool = False
 
 
 Report = Callable[[Standing], None]
@@ -58,6 +60,8 @@ class Tally:
     done: int = 0
     crashed: int = 0
     fallen: int = 0
+    is_confirming: bool = False
+    confirmed: Score | None = None
     _started: float = 0.0
     _session: int = 0
     _simulated: float = 0.0
@@ -71,10 +75,20 @@ class Tally:
         self.done += 1
         self.crashed += evaluation.score is None
         self.fallen += evaluation.fell
-        self.best = best(self.best, evaluation.score)
+        if evaluation.confirms is None:
+            self.best = best(self.best, evaluation.score)
+        else:
+            self.confirmed = best(self.confirmed, evaluation.score)
+            self.total += not fresh
         if fresh:
             self._session += 1
             self._simulated += evaluation.simulated_seconds
+
+    def expect(self, jobs: Sequence[Job]) -> None:
+        """Take note of what is evaluated next; what confirms others comes on top of the search."""
+        self.is_confirming = jobs[0].confirms is not None
+        if self.is_confirming:
+            self.total = self.done + len(jobs)
 
     def end_generation(self, scores: Sequence[Score | None]) -> None:
         """Take note that a generation is complete."""
@@ -89,13 +103,14 @@ class Tally:
             generation=self.generation,
             done=self.done,
             total=self.total,
-            best=self.best,
+            best=self.confirmed if self.is_confirming else self.best,
             median=self.median,
             crashed=self.crashed,
             fallen=self.fallen,
             rate=rate,
             real_time_factor=self._simulated / seconds,
-            remaining=(self.total - self.done) / rate if rate else None,
+            remaining=max(self.total - self.done, 0) / rate if rate else None,
+            is_confirming=self.is_confirming,
         )
 
 

@@ -2,12 +2,15 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Self
+from typing import Final, Self
 
 import numpy as np
 
 from neuromech.spec.document import Document
 from neuromech.spec.study import Scenario
+
+_CONFIRMATION: Final = 0
+"""Key of the stream that the seeds of a confirmation are drawn from; those of generations have none."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,9 +47,20 @@ class Scenarios:
     @classmethod
     def of(cls, document: Document) -> Self:
         """Return the scenarios of a document with a study; without any, the document itself is the only one."""
+        return cls._planned(document, _written(document))
+
+    @classmethod
+    def confirming(cls, document: Document, seeds: int) -> Self:
+        """Return the same scenarios, each with this many seeds that no generation draws, in place of its own."""
         study = document.experiment.study
-        own = document.experiment.protocol.seed
-        scenarios = (study.scenarios if study else {}) or {"": Scenario()}
+        stream = np.random.SeedSequence(study.seed if study else 0, spawn_key=(_CONFIRMATION,))
+        fresh = {"seeds": None, "fixed_seeds": tuple(map(int, stream.generate_state(seeds, np.uint32)))}
+        written = {name: one.model_copy(update=fresh) for name, one in _written(document).items()}
+        return cls._planned(document, written)
+
+    @classmethod
+    def _planned(cls, document: Document, scenarios: Mapping[str, Scenario]) -> Self:
+        study, own = document.experiment.study, document.experiment.protocol.seed
         total = sum(scenario.weight for scenario in scenarios.values())
         runs = [run for name, one in scenarios.items() for run in _runs(name, one, one.weight / total, own)]
         overrides = {name: written_overrides(scenario.set) for name, scenario in scenarios.items()}
@@ -70,6 +84,11 @@ class Scenarios:
 def written_overrides(values: Mapping[str, str | int | float | bool]) -> tuple[str, ...]:
     """Return changes of a document as texts for `--set`."""
     return tuple(f"{path}={str(value).lower() if isinstance(value, bool) else value}" for path, value in values.items())
+
+
+def _written(document: Document) -> Mapping[str, Scenario]:
+    study = document.experiment.study
+    return (study.scenarios if study else {}) or {"": Scenario()}
 
 
 def _runs(name: str, scenario: Scenario, weight: float, own: int) -> list[PlannedRun]:

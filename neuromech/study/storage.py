@@ -17,7 +17,6 @@ from datetime import UTC, datetime, timedelta
 from types import MappingProxyType
 from typing import Any
 
-import numpy as np
 from optuna.distributions import FloatDistribution, distribution_to_json
 from optuna.exceptions import StorageInternalError
 from optuna.storages import RDBStorage
@@ -27,7 +26,7 @@ from sqlalchemy import Connection, Table, insert, select, update
 from sqlalchemy.exc import SQLAlchemyError
 
 from neuromech.errors import StudyError
-from neuromech.study.evaluation import Evaluation, Job
+from neuromech.study.evaluation import Confirms, Evaluation, Job, Parameters
 from neuromech.study.header import Header
 from neuromech.study.score import Score
 from neuromech.study.space import Space
@@ -66,12 +65,20 @@ class StoredTrial:
 
     Args:
         number: of the evaluation.
-        parameters: what it sets: name -> value with unit.
+        generation: that it belongs to.
+        index: its place there.
+        parameters: what it sets, name -> value with unit.
+        seeds: of its runs.
+        confirms: what it confirms, None for one of the search.
         evaluation: what became of it, None while it runs or where its process was killed.
     """
 
     number: int
-    parameters: Mapping[str, str]
+    generation: int
+    index: int
+    parameters: Parameters
+    seeds: tuple[int, ...]
+    confirms: Confirms | None
     evaluation: Evaluation | None
 
 
@@ -95,7 +102,7 @@ class StoredStudy:
         with working(self.place):
             trials = sorted(self._storage.get_all_trials(self._study), key=lambda trial: trial.number)
         self._trials = {trial.number: trial._trial_id for trial in trials}
-        return [StoredTrial(one.number, one.user_attrs["parameters"], _evaluation(one)) for one in trials]
+        return list(map(_stored, trials))
 
     def evaluations(self) -> list[Evaluation]:
         """Return the evaluations that are complete, by number.
@@ -144,7 +151,7 @@ class StoredStudy:
             ids = dict(added)
             rows = [row for job in new for row in _parameter_rows(ids[job.number], job, space)]
             connection.execute(insert(_PARAMETERS), rows)
-            rows = [row for job in new for row in _attribute_rows(ids[job.number], _known(job, space))]
+            rows = [row for job in new for row in _attribute_rows(ids[job.number], _known(job))]
             connection.execute(insert(_ATTRIBUTES), rows)
         self._trials |= ids
 
@@ -180,20 +187,19 @@ def shown_value(score: Score, staged: bool) -> float:
     return score.stage + 0.5 + math.atan(score.value) / math.pi if staged else score.value
 
 
-def _known(job: Job, space: Space) -> dict[str, Any]:
+def _known(job: Job) -> dict[str, Any]:
     """Return what is known of an evaluation before it starts."""
-    written = space.parameters(np.array(job.point))
-    return {"generation": job.generation, "index": job.index, "seeds": job.seeds, "parameters": written}
+    known = {"generation": job.generation, "index": job.index, "seeds": job.seeds, "parameters": job.parameters}
+    return known if job.confirms is None else known | {"confirms": job.confirms}
 
 
 def _parameter_rows(trial: int, job: Job, space: Space) -> list[dict[str, Any]]:
     """Return the parameters as Optuna's tools show them: numbers in the unit of the document, with their bounds."""
-    written = space.parameters(np.array(job.point))
     rows = []
     for one in space.dimensions:
         factor = unit_factor(one.unit)[0]
         bounds = FloatDistribution(one.least / factor, one.most / factor, log=one.log)
-        value = float(written[one.name].partition(" ")[0])
+        value = float(job.parameters[one.name].partition(" ")[0])
         row = {"param_name": one.name, "param_value": value, "distribution_json": distribution_to_json(bounds)}
         rows.append({"trial_id": trial, **row})
     return rows
@@ -205,8 +211,21 @@ def _attribute_rows(trial: int, attributes: Mapping[str, Any]) -> list[dict[str,
 
 def _results(evaluation: Evaluation) -> dict[str, Any]:
     """Return what `begin` did not know yet."""
-    known = ("number", "generation", "index", "parameters")
+    known = ("number", "generation", "index", "parameters", "confirms")
     return {name: value for name, value in evaluation.to_dict().items() if name not in known}
+
+
+def _stored(trial: FrozenTrial) -> StoredTrial:
+    known = trial.user_attrs
+    return StoredTrial(
+        number=trial.number,
+        generation=known["generation"],
+        index=known["index"],
+        parameters=known["parameters"],
+        seeds=tuple(known["seeds"]),
+        confirms=known.get("confirms"),
+        evaluation=_evaluation(trial),
+    )
 
 
 def _evaluation(trial: FrozenTrial) -> Evaluation | None:

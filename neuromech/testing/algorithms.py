@@ -60,6 +60,21 @@ def candidates_stay_inside(make: Maker, count: int = 30) -> None:
             assert (points <= 1.0).all(), points.max()
 
 
+def centers_stay_inside(make: Maker, count: int = 10) -> None:
+    """`centers` gives places inside the cube, any number of them, the same again from a restored state, and a copy."""
+    algorithm, other = make(12), make(12)
+    for _ in range(count):
+        found = algorithm.centers()
+        assert found.shape[1:] == (algorithm.dimension,), found.shape
+        assert ((found >= 0.0) & (found <= 1.0)).all()
+        other.restore(json.loads(json.dumps(algorithm.state())))
+        assert np.array_equal(other.centers(), found)
+        kept = algorithm.ask()
+        found[:] = 0.5
+        assert np.array_equal(algorithm.ask(), kept)
+        algorithm.tell(rough(kept))
+
+
 def asking_again_changes_nothing(make: Maker) -> None:
     """`ask` gives the same until `tell`, whatever is done with its answer, and however often it was asked."""
     eager, plain = make(2), make(2)
@@ -183,6 +198,7 @@ def best_are_carried_over(make: Maker, elites: int, count: int = 15) -> None:
 
 ALL: Sequence[Callable[[Maker], None]] = (
     candidates_stay_inside,
+    centers_stay_inside,
     asking_again_changes_nothing,
     seed_decides,
     state_goes_on_exactly,

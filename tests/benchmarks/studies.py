@@ -54,11 +54,16 @@ def say(text: str) -> None:
     sys.stdout.flush()
 
 
+def own_jobs(plan: Plan, count: int) -> list[Job]:
+    """Return jobs with the document's own values."""
+    own = plan.space.parameters(plan.space.point(plan.document))
+    return [Job(n, 0, n, own, plan.scenarios.seeds(0)) for n in range(count)]
+
+
 def searched(evaluator: Evaluator, executor: Executor) -> float:
     """Return the seconds that a search takes, without starting processes and loading code."""
     plan = Plan.of(evaluator.document)
-    warm = [Job(n, 0, n, tuple(plan.space.point(plan.document)), plan.scenarios.seeds(0)) for n in range(4)]
-    list(executor.run(evaluator, warm, lambda: False))
+    list(executor.run(evaluator, own_jobs(plan, 4), lambda: False))
     with tempfile.TemporaryDirectory() as folder:
         stored = Database(f"{folder}/study.db").create("study", plan.header)
         search = Search(plan, stored, lambda standing: None)
@@ -92,7 +97,7 @@ def threads() -> None:
     evaluator = Evaluator(SPEC, engine="mujoco")
     evaluator.prepare()
     plan = Plan.of(evaluator.document)
-    jobs = [Job(n, 0, n, tuple(plan.space.point(plan.document)), plan.scenarios.seeds(0)) for n in range(EVALUATIONS)]
+    jobs = own_jobs(plan, EVALUATIONS)
     for workers in (1, 2):
         with ThreadPoolExecutor(workers) as pool:
             started = time.perf_counter()

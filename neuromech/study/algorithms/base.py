@@ -62,6 +62,13 @@ class Algorithm(ABC):
             ValueError: there are more or fewer scores than candidates.
         """
 
+    def centers(self) -> Floats:
+        """Return where the search stands apart from its candidates, (points, dimension), all in [0, 1]; may be none.
+
+        A study that confirms its best candidates confirms these with them.
+        """
+        return np.empty((0, self.dimension))
+
     @abstractmethod
     def state(self) -> State:
         """Return all that the following generations depend on, in types of JSON; floats keep their bits."""

@@ -72,6 +72,11 @@ class CmaEs(Generational):
             return self._begin(random.random(self.dimension), 2 * len(points), random)
         return self._drawn(random)
 
+    def centers(self) -> Floats:
+        """Return the mean of the distribution."""
+        mean: Floats = np.clip(np.array([self._known["mean"]]), 0.0, 1.0)
+        return mean
+
     def memory(self) -> State:
         """Return what the library's optimiser knows, without what follows from its settings."""
         return dict(self._known)

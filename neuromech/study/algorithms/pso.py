@@ -65,6 +65,11 @@ class Pso(Generational):
         pulls = pulls + self.settings.social * random.random(points.shape) * self._to_swarm_best(points)
         return self._move(points, pulls)
 
+    def centers(self) -> Floats:
+        """Return the best place of the swarm; none before there is one."""
+        best = self._swarm_best()
+        return np.empty((0, self.dimension)) if best is None else self._best_points[[best]]
+
     def memory(self) -> State:
         """Return velocities and best places."""
         scores = [None if score is None else [score.stage, score.value] for score in self._best_scores]
@@ -91,8 +96,13 @@ class Pso(Generational):
         return np.where(known[:, None], self._best_points - points, 0.0)
 
     def _to_swarm_best(self, points: Floats) -> Floats:
+        best = self._swarm_best()
+        return np.zeros_like(points) if best is None else self._best_points[best] - points
+
+    def _swarm_best(self) -> int | None:
+        """Return the particle that has found the best place, the first of equals."""
         found = [(score, -index) for index, score in enumerate(self._best_scores) if score is not None]
-        return self._best_points[-max(found)[1]] - points if found else np.zeros_like(points)
+        return -max(found)[1] if found else None
 
     def _move(self, points: Floats, pulls: Floats) -> Floats:
         omega, limit = float(self.settings.inertia), float(self.settings.maximum_velocity)

@@ -77,6 +77,10 @@ class RealCodedGa(Generational):
         pairs = roulette_pairs(roulette_weights(scores), np.array(scored), missing, random)
         return np.concatenate([elites, self._children(points[pairs[:, 0]], points[pairs[:, 1]], random)])
 
+    def centers(self) -> Floats:
+        """Return the elites of this generation; the first one has none."""
+        return self._points[: self.settings.elites if self._generation else 0].copy()
+
     def _children(self, first: Floats, second: Floats, random: Generator) -> Floats:
         crossing = random.random(len(first)) < self.settings.crossover_rate
         loci = crossing_loci(first.shape, float(self.settings.locus_rate), random)

@@ -79,6 +79,33 @@ def test_a_study_is_searched_resumed_written_back_and_looked_at(here: Path, caps
     assert "~ protocol.duration: 50 ms → 60 ms\n" in capsys.readouterr().err
 
 
+def test_the_confirmed_candidate_is_shown_and_written_back(here: Path, capsys: pytest.CaptureFixture[str]):
+    drawn = DOCUMENT.replace("DURATION", '50 ms, initial: {"second.rate": {uniform: [0, 0.5]}}')
+    Path("relaxing.yaml").write_text(drawn + "  scenarios: {own: {seeds: 1}}\n  confirm: {candidates: 2, seeds: 3}\n")
+    assert call("optimize", "relaxing.yaml", "--workers", "1", "--write", "tuned.yaml") == 0
+    said = capsys.readouterr().err
+    assert re.search(r"^generation 2, 8 of 8, best ", said, re.M)
+    assert re.search(r"^confirming, (\d+) of \1, best ", said, re.M)
+    winner = re.search(
+        r"^best: (evaluation \d+ \(confirms (evaluation \d+|the center of the search)\), score .*)$", said, re.M
+    )
+    assert winner is not None, said
+    assert f"source: study relaxing, {winner[1]}" in Path("tuned.yaml").read_text()
+    assert call("optimize", "relaxing.yaml", "--workers", "1", "--resume") == 0
+    assert f"best: {winner[1]}" in capsys.readouterr().err
+    assert call("study", "best", "results/relaxing/study.db") == 0
+    assert capsys.readouterr().out.startswith(f"{winner[1]}\n")
+    assert call("study", "show", "results/relaxing/study.db") == 0
+    shown = capsys.readouterr().out
+    assert re.search(r"^evaluations +8 *$", shown, re.M)
+    assert re.search(r"^evaluation +confirms +score in the search +score +fell", shown, re.M)
+    assert re.search(r"^\d+ +\d+ +-0\.\d+ +-0\.\d+ +0 of 3 runs", shown, re.M)
+    assert call("study", "show", "results/relaxing/study.db", "--json") == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["best"] == found["confirmed"][0]["evaluation"]
+    assert len(found["generations"]) == 2
+
+
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [

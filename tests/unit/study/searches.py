@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from neuromech.compiler.numerics import Floats
 from neuromech.pipeline import load_document
 from neuromech.study.driver import Search
 from neuromech.study.evaluation import Evaluation, Job, RunResult
@@ -17,6 +18,7 @@ from neuromech.study.score import Score
 from neuromech.study.space import Space
 from neuromech.study.storage import StoredStudy
 from neuromech.study.tasks import Packed, call
+from neuromech.units import measure
 
 DOCUMENT = """
 neuromech: 1
@@ -53,6 +55,11 @@ def plan_in(folder: Path, *overrides: str, text: str = DOCUMENT) -> Plan:
     return Plan.of(load_document(file, overrides))
 
 
+def coordinates(space: Space, job: Job) -> Floats:
+    """Return the point of the cube at which a candidate is."""
+    return np.array([one.coordinate(measure(job.parameters[one.name])[0]) for one in space.dimensions])
+
+
 class Paraboloid:
     """Judges a candidate by its distance from a place of the cube; notes what it evaluated in a file."""
 
@@ -69,12 +76,13 @@ class Paraboloid:
             os._exit(9)
         if job.number in self.crashing:
             raise ZeroDivisionError("the cat divided itself")
-        point = np.array(job.point)
+        point = coordinates(self.space, job)
         score = Score(0, -float(np.sum((point - 0.3) ** 2)))
         measures = {"distance": float(point[0]), "words": "none"}
         runs = tuple(RunResult("plain", seed, "finished", 1.0, "", measures, {"distance": 1.0}) for seed in job.seeds)
-        parameters = self.space.parameters(point)
-        return Evaluation(job.number, job.generation, job.index, parameters, runs, score, None, 0.1, 1.0)
+        return Evaluation(
+            job.number, job.generation, job.index, job.parameters, runs, score, None, 0.1, 1.0, job.confirms
+        )
 
     def numbers(self) -> list[int]:
         """Return what was evaluated, in this order."""

@@ -20,7 +20,8 @@ def jobs(evaluator, count=6, **keys):
     generator = np.random.default_rng(3)
     dimension = len(evaluator.space.dimensions)
     seeds = evaluator.scenarios.seeds(0)
-    return [Job(n, 0, n, tuple(generator.random(dimension).tolist()), seeds, **keys) for n in range(count)]
+    points = [generator.random(dimension) for _ in range(count)]
+    return [Job(n, 0, n, evaluator.space.parameters(point), seeds, **keys) for n, point in enumerate(points)]
 
 
 def numbers(evaluations):
@@ -53,9 +54,9 @@ def test_threads_copies_and_repetition_change_nothing(relaxing):
 def test_rewritten_parameters_give_the_same_bits_as_a_document_that_is_lowered_anew(relaxing):
     tune = {"bias": {}, "weight": {"scale": "log"}}
     fast, slow = Evaluator(relaxing({"tune": tune})), Evaluator(relaxing({"tune": tune | {"start": {}}}))
-    start = float(slow.space.point(slow.document)[2])
+    start = slow.space.parameters(slow.space.point(slow.document))["start"]
     for job in jobs(fast):
-        other = replace(job, point=(*job.point, start))
+        other = replace(job, parameters={**job.parameters, "start": start})
         assert fast(job).runs[0].measures == slow(other).runs[0].measures
 
 
@@ -104,9 +105,10 @@ def test_values_that_break_the_document_are_a_failure_of_that_candidate(relaxing
             protocol={"duration": "200 ms", "ramps": ramps},
         )
     )
-    job = Job(0, 0, 0, (0.1,), evaluator.scenarios.seeds(0))
+    early, late = (evaluator.space.parameters(np.array([place])) for place in (0.1, 0.9))
+    job = Job(0, 0, 0, early, evaluator.scenarios.seeds(0))
     assert "protocol.ramps.up.end  must be later than the start, 100 ms" in evaluator(job).failure
-    assert evaluator(replace(job, point=(0.9,))).failure is None
+    assert evaluator(replace(job, parameters=late)).failure is None
 
 
 def test_a_hopeless_run_is_ended_and_graded_as_one_that_ended_early(relaxing):

@@ -42,6 +42,7 @@ def test_what_changes_the_numbers_is_a_change(tmp_path: Path, old: str, new: str
     ("old", "new"),
     [
         ("evaluations: 14", "evaluations: 140"),
+        ("evaluations: 14", "evaluations: 14\n  confirm: {candidates: 2}"),
         ("name: two cells", "name: two cells\ndescription: of no consequence"),
         ("gain: {value: 0.5,", "gain: {value: 0.5, description: how much, source: a book,"),
         ("study:\n", "references: {a: a book}\nstudy:\n"),

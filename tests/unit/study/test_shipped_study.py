@@ -17,7 +17,7 @@ def test_the_tuned_cat_swings_its_hip_over_40_degrees_at_the_free_running_period
     own = evaluator.space.point(evaluator.document)
     tuned = evaluator.space.point(load_document(CAT / "suspended_tuned.yaml"))
     before, after = (
-        evaluator(Job(n, 0, n, tuple(point.tolist()), evaluator.scenarios.seeds(0)))
+        evaluator(Job(n, 0, n, evaluator.space.parameters(point), evaluator.scenarios.seeds(0)))
         for n, point in enumerate((own, tuned))
     )
     assert before.runs[0].measures["hip_range"] == pytest.approx(0.191, abs=0.005)

@@ -23,8 +23,8 @@ def plan(tmp_path_factory: pytest.TempPathFactory) -> Plan:
     return plan_in(tmp_path_factory.mktemp("document"))
 
 
-def job(number: int) -> Job:
-    return Job(number, 0, number, (AWKWARD, 1.0), (4294967295, 7))
+def job(plan: Plan, number: int) -> Job:
+    return Job(number, 0, number, plan.space.parameters(np.array([AWKWARD, 1.0])), (4294967295, 7))
 
 
 def evaluation(plan: Plan, number: int, score: Score | None) -> Evaluation:
@@ -39,16 +39,16 @@ def test_what_is_read_back_is_what_was_stored_to_the_last_bit(plan: Plan, tmp_pa
     assert stored.trials() == []
     given = [evaluation(plan, 0, Score(0, -AWKWARD)), evaluation(plan, 1, None)]
     for one in given:
-        stored.begin([job(one.number)], plan.space)
+        stored.begin([job(plan, one.number)], plan.space)
         stored.finish(one)
-    stored.begin([job(2)], plan.space)
+    stored.begin([job(plan, 2)], plan.space)
     boundary = Boundary(3, 12, {"points": [[AWKWARD]], "memory": {"velocity": [5e-324]}})
     stored.set_boundary(boundary)
     again = Database(str(tmp_path / "a.db"), create=False).open("study")
     assert again.header == plan.header
     assert again.boundary() == boundary
     assert [trial.evaluation is None for trial in again.trials()] == [False, False, True]
-    known = plan.space.parameters(np.array(job(0).point))
+    known = job(plan, 0).parameters
     for one, found in zip(given, again.evaluations(), strict=True):
         assert found.parameters == known
         assert {**found.to_dict(), "parameters": one.parameters} == one.to_dict()
@@ -57,9 +57,9 @@ def test_what_is_read_back_is_what_was_stored_to_the_last_bit(plan: Plan, tmp_pa
 def test_optuna_sees_parameters_with_bounds_and_failures_as_failures(plan: Plan, tmp_path: Path):
     stored = Database(str(tmp_path / "a.db")).create("study", plan.header)
     for one in (evaluation(plan, 0, Score(0, -2.5)), evaluation(plan, 1, Score(0, -1.5)), evaluation(plan, 2, None)):
-        stored.begin([job(one.number)], plan.space)
+        stored.begin([job(plan, one.number)], plan.space)
         stored.finish(one)
-    stored.begin([job(3)], plan.space)
+    stored.begin([job(plan, 3)], plan.space)
     study = optuna.load_study(study_name="study", storage=f"sqlite:///{tmp_path / 'a.db'}")
     assert [trial.state.name for trial in study.trials] == ["COMPLETE", "COMPLETE", "FAIL", "WAITING"]
     assert [trial.number for trial in study.trials] == [0, 1, 2, 3]
@@ -85,7 +85,7 @@ def test_a_study_is_begun_once(plan: Plan, tmp_path: Path):
     database = Database(str(tmp_path / "a.db"))
     database.create("study", plan.header)
     stored = database.create("study", plan.header)
-    stored.begin([job(0)], plan.space)
+    stored.begin([job(plan, 0)], plan.space)
     with pytest.raises(StudyError, match=r"a\.db holds a study 'study' already.*--resume"):
         database.create("study", plan.header)
     with pytest.raises(StudyError, match=r"holds no study 'other' \(it holds 'study'\)"):
@@ -103,9 +103,9 @@ def test_a_study_that_was_killed_before_it_said_what_it_is_can_be_begun(plan: Pl
 def test_evaluations_of_another_process_are_noticed(plan: Plan, tmp_path: Path):
     first = Database(str(tmp_path / "a.db")).create("study", plan.header)
     second = Database(str(tmp_path / "a.db")).open("study")
-    first.begin([job(0)], plan.space)
+    first.begin([job(plan, 0)], plan.space)
     with pytest.raises(StudyError, match="another process"):
-        second.begin([job(0)], plan.space)
+        second.begin([job(plan, 0)], plan.space)
     second.trials()
     first.finish(evaluation(plan, 0, Score(0, 1.0)))
     with pytest.raises(StudyError, match="another process"):
@@ -145,4 +145,4 @@ def test_a_database_that_fails_says_what_is_safe(plan: Plan, tmp_path: Path):
     with sqlite3.connect(tmp_path / "a.db") as connection:
         connection.execute("DROP TABLE trial_params")
     with pytest.raises(StudyError, match=r"a\.db fails: no such table.*resume"):
-        stored.begin([job(0)], plan.space)
+        stored.begin([job(plan, 0)], plan.space)
