@@ -39,7 +39,8 @@ def take(page: Path, source: str, target: str) -> None:
     small.thumbnail((WIDEST, WIDEST), Image.Resampling.LANCZOS)
     file = page.parent / target
     file.parent.mkdir(parents=True, exist_ok=True)
-    small.quantize(COLORS, dither=Image.Dither.NONE).save(file, optimize=True)
+    # Median cut would give rare colours, as those of thin lines, to their neighbours.
+    small.quantize(COLORS, Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE).save(file, optimize=True)
 
 
 def main() -> None:

@@ -19,8 +19,11 @@ _aimed = exactly(aimed)
 # Columns of `Pendulums.numbers`.
 _MASS, _STRING, _RADIUS, _HEADING, _RELEASE, _TAKEN_AWAY, _IS_AIMED, _STAYS, _TARGET = range(9)
 # Columns of `Pendulums.now`.
-_PHASE, _SINCE, _PIVOT, PLACE = 0, 1, 2, 5
+_PHASE, _SINCE, _PIVOT, _WATCHED, _SEEN, PLACE = 0, 1, 2, 5, 6, 8
 _WAITING, _SWINGING, _HIT, _TAKEN = 0.0, 1.0, 2.0, 3.0
+
+_WATCH = 1.0
+"""For how long (s) before its release a weight watches how fast its target goes: some strides, in which it sways."""
 
 
 @dataclass(frozen=True)
@@ -31,7 +34,8 @@ class Pendulums:
         numbers: (pendulums, 11) mass, string, radius, heading, release, time until it is taken away, whether it aims
             and whether it stays (1 or 0), target in the segment's frame (3).
         segments: (pendulums,) row of the segment that each hits.
-        now: (pendulums, 8) phase, time since its first touch in s, pivot and place of release in m. Changes in a run.
+        now: (pendulums, 11) phase, time since its first touch in s, pivot in m, the time in s at which its target was
+            seen, x and y of the target then in m, and place of release in m. Changes in a run.
         gravity: in m/s².
     """
 
@@ -54,16 +58,16 @@ class Pendulums:
             )
             for one in every
         ]
-        now = [(_WAITING, 0.0, *first_pivot(body, one), *first_place(body, one)) for one in every]
+        now = [(_WAITING, 0.0, *first_pivot(body, one), 0.0, 0.0, 0.0, *first_place(body, one)) for one in every]
         return cls(
             np.array(numbers).reshape(-1, 11),
             np.array([rows.index(one.segment) for one in every], dtype=np.int64),
-            np.array(now).reshape(-1, 8),
+            np.array(now).reshape(-1, 11),
             float(body.world.gravity),
         )
 
 
-NO_PENDULUMS = Pendulums(np.zeros((0, 11)), np.zeros(0, dtype=np.int64), np.zeros((0, 8)), 0.0)
+NO_PENDULUMS = Pendulums(np.zeros((0, 11)), np.zeros(0, dtype=np.int64), np.zeros((0, 11)), 0.0)
 
 
 @exactly
@@ -90,16 +94,19 @@ def lead(
         segment: row of the segment that it hits.
         now: row of `Pendulums.now`, which changes.
         weight: (9,) position in m and velocity in m/s of the weight, force in N on the segment.
-        root_velocity: (6,) of the root in m/s and rad/s.
+        root_velocity: (6,) of the root in m/s and rad/s, for a weight that is released at once.
         rotation: of all segments; (segments, 3, 3).
         position: of all segments in m; (segments, 3).
         acting: (9,) filled as in `Body.push`.
     """
     put = False
+    if now[_PHASE] == _WAITING and (number == 0 or number * dt <= pendulum[_RELEASE] - _WATCH):
+        now[_WATCHED] = number * dt
+        now[_SEEN], now[_SEEN + 1], _ = _target(pendulum, segment, rotation, position)
     x, y, z, vx, vy, vz = weight[0], weight[1], weight[2], weight[3], weight[4], weight[5]
     if now[_PHASE] == _WAITING and number * dt >= pendulum[_RELEASE] - 0.5 * dt:
         if pendulum[_IS_AIMED] > 0.0:
-            _aim(gravity, pendulum, segment, now, root_velocity, rotation, position)
+            _aim(number * dt, gravity, pendulum, segment, now, root_velocity, rotation, position)
         now[_PHASE] = _SWINGING
         put = True
     elif now[_PHASE] == _SWINGING and (weight[6] != 0.0 or weight[7] != 0.0 or weight[8] != 0.0):
@@ -120,7 +127,18 @@ def lead(
 
 
 @exactly
+def _target(pendulum: Floats, segment: int, rotation: Floats, position: Floats) -> tuple[float, float, float]:
+    axes, place = rotation[segment], position[segment]
+    a, b, c = pendulum[_TARGET], pendulum[_TARGET + 1], pendulum[_TARGET + 2]
+    x = place[0] + axes[0, 0] * a + axes[0, 1] * b + axes[0, 2] * c
+    y = place[1] + axes[1, 0] * a + axes[1, 1] * b + axes[1, 2] * c
+    z = place[2] + axes[2, 0] * a + axes[2, 1] * b + axes[2, 2] * c
+    return x, y, z
+
+
+@exactly
 def _aim(
+    time: float,
     gravity: float,
     pendulum: Floats,
     segment: int,
@@ -129,13 +147,12 @@ def _aim(
     rotation: Floats,
     position: Floats,
 ) -> None:
-    axes = rotation[segment]
-    target = pendulum[_TARGET : _TARGET + 3]
-    x = position[segment, 0] + axes[0, 0] * target[0] + axes[0, 1] * target[1] + axes[0, 2] * target[2]
-    y = position[segment, 1] + axes[1, 0] * target[0] + axes[1, 1] * target[1] + axes[1, 2] * target[2]
-    z = position[segment, 2] + axes[2, 0] * target[0] + axes[2, 1] * target[1] + axes[2, 2] * target[2]
-    heading = atan2(axes[1, 0], axes[0, 0]) + pendulum[_HEADING]
+    x, y, z = _target(pendulum, segment, rotation, position)
+    heading = atan2(rotation[segment, 1, 0], rotation[segment, 0, 0]) + pendulum[_HEADING]
     vx, vy, string = root_velocity[0], root_velocity[1], pendulum[_STRING]
+    watched = time - now[_WATCHED]
+    if watched > 0.0:
+        vx, vy = (x - now[_SEEN]) / watched, (y - now[_SEEN + 1]) / watched
     px, py, pz = _aimed(x, y, z, heading, vx, vy, string, pendulum[_RADIUS], gravity)
     now[_PIVOT], now[_PIVOT + 1], now[_PIVOT + 2] = px, py, pz
     now[PLACE], now[PLACE + 1], now[PLACE + 2] = px + string * cos(heading), py + string * sin(heading), pz

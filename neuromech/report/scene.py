@@ -21,7 +21,7 @@ from neuromech.report.ground import ground_pieces, square
 from neuromech.report.meshes import Mesh
 from neuromech.report.replay import Poses
 from neuromech.report.shot import Shot
-from neuromech.report.solids import LIFTED, LOADED, Color, contact_meshes, segment_solids
+from neuromech.report.solids import LIFTED, LOADED, Color, contact_meshes, segment_solids, weight_solids
 
 Image = NDArray[np.uint8]
 
@@ -40,6 +40,9 @@ _DRAWN_SIZE = 0.5
 
 _NEAR, _FAR, _LIGHT_DISTANCE = 0.05, 20.0, 2.0
 """Distances in the scene: what the camera sees, and the light. The wider shadows reach, the coarser they are."""
+
+_OUT_OF_SIGHT = np.array([0.0, 0.0, -1e3])
+"""Place (m) under the ground of what is not to be seen."""
 
 _CLEAR, _GONE = 1.6, 5.0
 """How far behind the body the ground begins to fade, and is gone, in body sizes."""
@@ -70,6 +73,7 @@ class Scene:
         solids = segment_solids(shot.body, shot.poses, shot.size)
         self._segments = [(solid.segment, self._add(solid.mesh, solid.color)) for solid in solids]
         self._contacts = [self._add(mesh, LIFTED) for mesh in contact_meshes(shot.body)]
+        self._weights = [self._add(mesh, color) for swing in shot.swings for mesh, color in weight_solids(swing)]
         self._shown_loaded = [False] * len(self._contacts)
         tile = 2.0 * square(shot.size)
         pieces = ground_pieces(shot.body.world.ground, shot.poses, shot.size)
@@ -91,6 +95,7 @@ class Scene:
         camera = self._shot.cameras[number]
         self._pose(self._shot.poses, number, camera.target)
         self._show_loads(self._shot.loaded[number])
+        self._show_weights(float(self._shot.poses.time[number]), camera.target)
         finer = self._picture.finer
         width, height = finer * self._picture.width, finer * self._picture.height
         colors, distance = self._rendered(width, height, camera)
@@ -143,6 +148,13 @@ class Scene:
                 color = [*(LOADED if is_loaded else LIFTED), 1.0]
                 pybullet.changeVisualShape(piece, -1, rgbaColor=color, physicsClientId=self._client)
                 self._shown_loaded[row] = bool(is_loaded)
+
+    def _show_weights(self, time: float, target: Array) -> None:
+        for swing, *pieces in zip(self._shot.swings, self._weights[::2], self._weights[1::2], strict=True):
+            (place,), (swings,) = swing.at(np.array([time]))
+            for piece in pieces:
+                turn = Rotation.align_vectors([place - swing.pivot], [[0.0, 0.0, -1.0]])[0].as_quat()
+                self._put(piece, place - target if swings else _OUT_OF_SIGHT, turn)
 
     def _rendered(self, width: int, height: int, camera: Camera) -> tuple[Image, Array]:
         """Return colours, shape (height, width, 3), and distances in the scene from the camera, (height, width)."""

@@ -12,6 +12,7 @@ from neuromech.graph.model import BodyModel
 from neuromech.report.camera import Angle, Camera, followed
 from neuromech.report.replay import Motion, Poses
 from neuromech.report.solids import body_size
+from neuromech.report.weights import Swing, recorded_swings
 from neuromech.simulate.recording import Recording
 from neuromech.spec.measure import Measure
 
@@ -26,6 +27,7 @@ class Shot:
         poses: n of them.
         loaded: (n, contacts) whether the ground carries a contact; false where its force was not recorded.
         cameras: n of them.
+        swings: weights on strings.
     """
 
     body: BodyModel
@@ -33,6 +35,7 @@ class Shot:
     poses: Poses
     loaded: NDArray[np.bool_]
     cameras: tuple[Camera, ...]
+    swings: tuple[Swing, ...]
 
 
 def shoot(motion: Motion, angle: Angle, times: Array) -> Shot:
@@ -41,7 +44,8 @@ def shoot(motion: Motion, angle: Angle, times: Array) -> Shot:
     size = body_size(motion.body, poses)
     loads = [_loaded(motion.recording, contact, times) for contact in motion.body.contacts]
     loaded = np.column_stack([np.empty((len(times), 0), dtype=np.bool_), *loads])
-    return Shot(motion.body, size, poses, loaded, tuple(followed(poses, angle, size)))
+    swings = tuple(recorded_swings(motion.body, motion.recording))
+    return Shot(motion.body, size, poses, loaded, tuple(followed(poses, angle, size)), swings)
 
 
 def _loaded(recording: Recording, contact: str, times: Array) -> NDArray[np.bool_]:

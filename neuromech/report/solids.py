@@ -11,12 +11,18 @@ from neuromech.graph.model import BodyModel
 from neuromech.report.layout import BLUE, RED
 from neuromech.report.meshes import Mesh, box, capsule
 from neuromech.report.replay import Poses
+from neuromech.report.weights import Swing
 from neuromech.spec.model import BoxShape, CapsuleShape, Segment
 
 Color = tuple[float, float, float]
 
 LEFT, MIDDLE, RIGHT = to_rgb(RED), (0.72, 0.69, 0.66), to_rgb(BLUE)
 LIFTED, LOADED = (0.25, 0.25, 0.25), (0.94, 0.89, 0.26)
+
+WEIGHT = (0.35, 0.71, 0.91)
+
+_STRING = 0.08
+"""Radius of a string, in radii of its weight."""
 
 _ROD = 0.02
 """Radius of the rods that stand for a segment without a shape, in body sizes."""
@@ -58,6 +64,14 @@ def contact_meshes(body: BodyModel) -> list[Mesh]:
     """Return the sphere of each contact around the origin."""
     origin = np.zeros(3)
     return [capsule(origin, origin, float(contact.radius)) for contact in body.contacts.values()]
+
+
+def weight_solids(swing: Swing) -> list[tuple[Mesh, Color]]:
+    """Return a weight around the origin and its string, which goes straight up from it."""
+    origin, top = np.zeros(3), np.array([0.0, 0.0, float(swing.pendulum.string)])
+    radius = float(swing.pendulum.radius)
+    weight, string = capsule(origin, origin, radius), capsule(origin, top, _STRING * radius)
+    return [(weight, WEIGHT), (string, LIFTED)]
 
 
 def body_size(body: BodyModel, poses: Poses) -> float:

@@ -12,6 +12,7 @@ from neuromech.report.replay import Motion, recorded_body
 from neuromech.report.scene import Picture, Scene
 from neuromech.report.shot import shoot
 from neuromech.report.solids import body_size
+from neuromech.report.weights import recorded_swings
 from neuromech.simulate.recording import Recording
 from neuromech.spec.world import Slope, Step
 
@@ -19,6 +20,9 @@ PICTURES = 6
 _COLUMNS = 3
 _PICTURE = Picture(480, 288, finer=2)
 _DOTS_PER_INCH = 160.0
+_AFTER_HIT = 0.2
+"""Time (s) for which pictures go on after a weight was taken away."""
+
 _SAMPLE = 0.02
 """Time (s) between samples of the way of the body."""
 
@@ -39,7 +43,8 @@ def stills_figure(
         recording: of the body's motion.
         body: that of the recorded document where None is given.
         window: times (s) of the first and the last picture; where None is given, those between
-            which it passes the last slope or step that it reaches, or its last cycle on level ground.
+            the last weight swings, else those between which it passes the last slope or step that it reaches, or its
+            last cycle on level ground.
         angle: where the camera stands.
         number: of pictures.
 
@@ -72,7 +77,11 @@ def stills_figure(
 
 
 def _window(motion: Motion) -> tuple[float, float]:
-    """Return when the body passes the last slope or step that it reaches; on level ground, its last cycle."""
+    """Return when a weight hits the body, or when it passes the last slope or step that it reaches; or a last cycle."""
+    swings = recorded_swings(motion.body, motion.recording)
+    if swings:
+        last = max(swings, key=lambda swing: swing.begin)
+        return last.begin, min(last.end + _AFTER_HIT, motion.end)
     passage = _passage(motion)
     if passage is not None:
         return passage

@@ -13,8 +13,8 @@ class Pendulum(SpecModel):
     """A weight on a massless string, released from horizontal, that hits a segment and nothing else.
 
     With `target` the pivot is put, at the time of release, where the weight hits that point of the segment at the
-    lowest point of its swing if the root goes on as it goes then. With `pivot` it is where you say. Source: Habu 2020,
-    section 3.5.2.
+    lowest point of its swing if it goes on as it went during the last second. With `pivot` it is where you say.
+    Source: Habu 2020, section 3.5.2.
     """
 
     segment: Annotated[str, Field(description="that is hit; its shape is what the weight touches")]

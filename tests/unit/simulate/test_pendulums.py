@@ -3,7 +3,9 @@
 import numpy as np
 import pytest
 
+from neuromech.compiler.pendulums import lead
 from neuromech.errors import DocumentError
+from neuromech.graph.swing import HEADINGS
 from neuromech.pipeline import run
 
 # A cart of 3 kg that slides along x without friction. Its front is at x = 0.2 m.
@@ -193,3 +195,18 @@ def test_a_pendulum_needs_a_shape_gravity_and_an_engine_with_collisions(document
         run(document(cart("pybullet", pendulum).replace("world:", "world:\n  gravity: 0 m/s^2")))
     with pytest.raises(DocumentError, match="engine 'hinge' knows no pendulums"):
         run(document(cart("hinge", pendulum).replace("kind: slide, ", "")))
+
+
+def test_a_target_that_sways_is_aimed_at_where_it_goes_in_the_mean():
+    pendulum = np.array([1.0, 0.5, 0.03, HEADINGS["front"], 2.0, 0.1, 1.0, 0.0, 0.2, 0.0, 0.0])
+    now, weight, acting = np.zeros(11), np.zeros(9), np.zeros(9)
+    rotation, dt = np.eye(3)[None], 1e-3
+    for number in range(2001):
+        time = number * dt
+        # It goes at 0.5 m/s, and sways by 20 mm once in 0.5 s: at the release it goes sideways at 0.25 m/s.
+        position = np.array([[0.5 * time, 0.02 * np.sin(4.0 * np.pi * time), 0.2]])
+        velocity = np.array([0.5, 0.25 * np.cos(4.0 * np.pi * time), 0.0, 0.0, 0.0, 0.0])
+        put = lead(number, dt, 9.81, pendulum, 0, now, weight, velocity, rotation, position, acting)
+        assert put == (number == 2000)
+    quarter = 1.8540747 * np.sqrt(0.5 / 9.81)
+    assert now[2:5] == pytest.approx([1.0 + 0.2 + 0.5 * quarter + 0.03, 0.0, 0.7], abs=1e-6)
