@@ -18,12 +18,18 @@ class Tuned(SpecModel):
     """How one parameter is tuned. Its bounds are those of the parameter, or `range`, which lies within them.
 
     On the scale `log` equal steps of the search are equal ratios. The parameters in `also` get the same value, as the
-    right side of a body that mirrors the left.
+    right side of a body that mirrors the left; with a minus before its name a parameter gets the negative of it, as
+    where mirroring changes the sign.
     """
 
     range: tuple[Written, Written] | None = None
     scale: Literal["linear", "log"] = "linear"
     also: tuple[str, ...] = ()
+
+    @property
+    def followers(self) -> tuple[tuple[str, int], ...]:
+        """Name and sign of each parameter in `also`."""
+        return tuple((one.removeprefix("-"), -1 if one.startswith("-") else 1) for one in self.also)
 
 
 class Scenario(SpecModel):

@@ -40,8 +40,8 @@ def _tuned(name: str, tuned: Tuned, parameters: Mapping[str, Parameter]) -> Iter
             return
         searched = Bounds.of(Parameter(value=tuned.range[0], minimum=tuned.range[0], maximum=tuned.range[1])) or bounds
     yield from _room(searched, tuned, path)
-    for index, other in enumerate(tuned.also):
-        yield from _also(other, searched, parameters, f"{path}.also.{index}")
+    for index, (other, sign) in enumerate(tuned.followers):
+        yield from _also(other, sign, searched, parameters, f"{path}.also.{index}")
 
 
 def _range(written: tuple[str | int | float, ...], bounds: Bounds, name: str, path: str) -> Iterator[Problem]:
@@ -64,7 +64,7 @@ def _room(searched: Bounds, tuned: Tuned, path: str) -> Iterator[Problem]:
         yield Problem("out-of-range", join(path, "scale"), message, searched.least_text, hint)
 
 
-def _also(name: str, searched: Bounds, parameters: Mapping[str, Parameter], path: str) -> Iterator[Problem]:
+def _also(name: str, sign: int, searched: Bounds, parameters: Mapping[str, Parameter], path: str) -> Iterator[Problem]:
     if name not in parameters:
         yield Problem("unknown-parameter", path, "is no parameter", repr_short(name), did_you_mean(name, parameters))
         return
@@ -74,16 +74,19 @@ def _also(name: str, searched: Bounds, parameters: Mapping[str, Parameter], path
     if bounds.dimension != searched.dimension:
         message = f"must have the dimension of what it follows, '{searched.unit}'"
         yield Problem("wrong-unit", path, message, repr_short(bounds.unit))
-    elif bounds.least > searched.least or bounds.most < searched.most:
+        return
+    least, most = sorted((sign * searched.least, sign * searched.most))
+    if bounds.least > least or bounds.most < most:
         message = f"may only be {bounds.least_text} to {bounds.most_text}"
+        got = f"{searched.least_text} to {searched.most_text}"
         hint = "write a 'range' that fits both"
-        yield Problem("out-of-range", path, message, f"{searched.least_text} to {searched.most_text}", hint)
+        yield Problem("out-of-range", path, message, got if sign > 0 else f"the negative of {got}", hint)
 
 
 def _tuned_twice(study: Study) -> Iterator[Problem]:
     owner = {name: name for name in study.tune}
     for name, tuned in study.tune.items():
-        for index, other in enumerate(tuned.also):
+        for index, (other, _) in enumerate(tuned.followers):
             if other in owner:
                 where = "is tuned itself" if owner[other] == other else f"follows '{owner[other]}' already"
                 yield Problem("tuned-twice", f"{_TUNE}.{name}.also.{index}", where, repr_short(other))
@@ -92,7 +95,11 @@ def _tuned_twice(study: Study) -> Iterator[Problem]:
 
 def _changed(path: str, study: Study, place: str) -> Iterator[Problem]:
     """Yield a change that a scenario may not make."""
-    tuned = {f"parameters.{name}" for first, one in study.tune.items() for name in (first, *one.also)}
+    tuned = {
+        f"parameters.{name}"
+        for first, one in study.tune.items()
+        for name in (first, *(other for other, _ in one.followers))
+    }
     if ".".join(path.split(".")[:2]) in tuned:
         yield Problem("scenario", place, "is what the study tunes")
     elif path.split(".")[0] == "study":

@@ -50,10 +50,11 @@ def _bound_problems(document: Document) -> Iterator[Problem]:
     """Yield ends of the search that are not allowed where the parameter acts, at the first such place."""
     uses = list(followers(document.experiment))
     for dimension in Space.of(document).dimensions:
-        mine = [use for use in uses if use.parameter in (dimension.name, *dimension.also)]
+        mine = [use for use in uses if use.parameter in dimension.names]
         for word, coordinate in (("lower", 0.0), ("upper", 1.0)):
-            text = dimension.text(coordinate)
-            refused = next((found for use in mine if (found := _refusal(use, text)) is not None), None)
+            texts = dimension.texts(coordinate)
+            refusals = ((texts[use.parameter], _refusal(use, texts[use.parameter])) for use in mine)
+            text, refused = next((pair for pair in refusals if pair[1] is not None), ("", None))
             if refused is not None:
                 message, place = f"its {word} end is not allowed at {refused}", f"study.tune.{dimension.name}"
                 yield document.problem("out-of-range", place, message, text, "write a 'range' that is")

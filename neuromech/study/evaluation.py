@@ -64,6 +64,13 @@ class RunResult:
     points: Mapping[str, float]
     partial: Score | None = None
 
+    def to_dict(self) -> dict[str, Any]:
+        """Return plain values for JSON, exact."""
+        plain: dict[str, Any] = {name: getattr(self, name) for name in self.__slots__}
+        plain["partial"] = None if self.partial is None else asdict(self.partial)
+        plain["measures"], plain["points"] = dict(self.measures), dict(self.points)
+        return plain
+
 
 @dataclass(frozen=True, slots=True)
 class Evaluation:
@@ -105,7 +112,11 @@ class Evaluation:
 
     def to_dict(self) -> dict[str, Any]:
         """Return plain values for JSON, exact."""
-        return asdict(self)
+        plain: dict[str, Any] = {name: getattr(self, name) for name in self.__slots__}
+        plain["score"] = None if self.score is None else asdict(self.score)
+        plain["parameters"] = dict(self.parameters)
+        plain["runs"] = tuple(run.to_dict() for run in self.runs)
+        return plain
 
     @classmethod
     def from_dict(cls, values: Mapping[str, Any]) -> "Evaluation":

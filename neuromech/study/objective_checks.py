@@ -2,13 +2,14 @@
 
 from neuromech.analyse.expectations import Expectation
 from neuromech.analyse.kinds import MeasureKind
+from neuromech.analyse.reach import Possible
 from neuromech.errors import MeasureError, Problem, did_you_mean
 from neuromech.graph.model import ModelGraph
 from neuromech.spec.measure import Measure
 from neuromech.spec.node import join
 from neuromech.spec.study import Condition, Study, Term
 from neuromech.study.measure_checks import MeasureChecker
-from neuromech.study.reach import Possible
+from neuromech.study.terms import Points
 from neuromech.units import measure as si_value
 from neuromech.units import repr_short, unit_factor
 
@@ -50,6 +51,8 @@ class _Checker(MeasureChecker):
             unit = _product({key: unit or "" for key, unit in units.items()})
             message = f"must have the dimension of what is measured, {unit or 'a number'}"
             self.add("wrong-unit", join(path, "scale"), message, repr_short(term.scale))
+        else:
+            self._check_goal(term, kind, path)
 
     def check_condition(self, condition: Condition, path: str) -> None:
         """Check that a condition can be met, together with all conditions before it on the same measure."""
@@ -65,8 +68,9 @@ class _Checker(MeasureChecker):
         possible = Possible.of(kind, self._duration)
         word = condition.expected.equals
         if possible.meeting(expectation, word) is None:
-            got = f"measure '{condition.measure.kind}' gives {possible.text()}{f' {unit}' if unit else ''}"
-            self.add("impossible", join(path, "expected"), f"can never be met: {got}", expectation.text())
+            self.add(
+                "impossible", join(path, "expected"), possible.refusal(condition.measure.kind, unit), expectation.text()
+            )
             return
         before, where = self._demanded.get(condition.measure, (possible, ""))
         left = before.meeting(expectation, word)
@@ -75,6 +79,21 @@ class _Checker(MeasureChecker):
             self.add("impossible", join(path, "expected"), message, expectation.text())
         else:
             self._demanded[condition.measure] = left, join(path, "expected")
+
+    def _check_goal(self, term: Term, kind: MeasureKind, path: str) -> None:
+        """Check that the value or the bounds that a term strives for are not beyond all that its measure can give."""
+        points = Points.of(term)
+        if points.direction or len(term.factors) > 1:
+            return
+        possible = Possible.of(kind)
+        if max(points.low, possible.low) > min(points.high, possible.high):
+            key = "target" if term.target is not None else "at_least" if points.low > possible.high else "at_most"
+            self.add(
+                "impossible",
+                join(path, key),
+                possible.refusal(term.measure.kind, self.kinds[term.measure][1]),
+                repr_short(getattr(term, key)),
+            )
 
     def _check_word(self, word: str, kind: MeasureKind, measure: Measure, path: str) -> None:
         if kind.result != "text":

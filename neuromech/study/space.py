@@ -20,7 +20,7 @@ class Dimension:
 
     Args:
         name: the parameter that it sets.
-        also: further parameters that get the same value.
+        also: further parameters, each with the sign with which it gets the same value.
         least: lower bound, SI units.
         most: upper bound, SI units.
         unit: unit in which values are written, that of the document.
@@ -28,7 +28,7 @@ class Dimension:
     """
 
     name: str
-    also: tuple[str, ...]
+    also: tuple[tuple[str, int], ...]
     least: float
     most: float
     unit: str
@@ -39,7 +39,7 @@ class Dimension:
         """Return the coordinate of a parameter that has bounds."""
         bounds = tuned.range or (parameter.minimum, parameter.maximum)
         least, most = (measure(bound)[0] for bound in bounds if bound is not None)
-        return cls(name, tuned.also, least, most, unit_text(parameter.value), tuned.scale == "log")
+        return cls(name, tuned.followers, least, most, unit_text(parameter.value), tuned.scale == "log")
 
     def value(self, coordinate: float) -> float:
         """Return the SI value at a coordinate in 0…1."""
@@ -62,6 +62,16 @@ class Dimension:
         while self._read(number) < self.least:
             number = math.nextafter(number, math.inf)
         return f"{number!r} {self.unit}".strip()
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """All parameters that the coordinate sets."""
+        return (self.name, *(name for name, _ in self.also))
+
+    def texts(self, coordinate: float) -> dict[str, str]:
+        """Return name → value of every parameter that the coordinate sets, as an author writes it."""
+        text = self.text(coordinate)
+        return {self.name: text} | {name: text if sign > 0 else _negative(text) for name, sign in self.also}
 
     def _read(self, number: float) -> float:
         return number * unit_factor(self.unit)[0]
@@ -88,7 +98,7 @@ class Space:
     @property
     def all_names(self) -> tuple[str, ...]:
         """Names of all parameters that a point sets, those of `also` included."""
-        return tuple(name for dimension in self.dimensions for name in (dimension.name, *dimension.also))
+        return tuple(name for dimension in self.dimensions for name in dimension.names)
 
     def parameters(self, point: Floats) -> dict[str, str]:
         """Return name → value of every parameter that a point sets, those of `also` included.
@@ -98,8 +108,7 @@ class Space:
         """
         found: dict[str, str] = {}
         for dimension, coordinate in zip(self.dimensions, np.clip(point, 0.0, 1.0), strict=True):
-            text = dimension.text(float(coordinate))
-            found |= dict.fromkeys((dimension.name, *dimension.also), text)
+            found |= dimension.texts(float(coordinate))
         return found
 
     def values(self, point: Floats) -> dict[str, str]:
@@ -110,3 +119,9 @@ class Space:
         """Return the coordinates of a document's own values; (dimension,)."""
         parameters: Mapping[str, Parameter] = document.experiment.parameters
         return np.array([one.coordinate(measure(parameters[one.name].value)[0]) for one in self.dimensions])
+
+
+def _negative(text: str) -> str:
+    """Return the negative of a written value; zero has no sign."""
+    number, _, unit = text.partition(" ")
+    return f"{0.0 - float(number)!r} {unit}".strip()

@@ -22,7 +22,7 @@ from optuna.exceptions import StorageInternalError
 from optuna.storages import RDBStorage
 from optuna.storages._rdb import models
 from optuna.trial import FrozenTrial, TrialState
-from sqlalchemy import Connection, Table, insert, select, update
+from sqlalchemy import Connection, Table, bindparam, insert, select, update
 from sqlalchemy.exc import SQLAlchemyError
 
 from neuromech.errors import StudyError
@@ -41,6 +41,17 @@ _VALUES: Table = models.TrialValueModel.__table__
 _ONLY_OBJECTIVE: Mapping[str, Any] = MappingProxyType(
     {"objective": 0, "value_type": models.TrialValueModel.TrialValueType.FINITE}
 )
+_LOCK = select(_STUDIES.c.study_id).where(_STUDIES.c.study_id == bindparam("study")).with_for_update()
+_NEW_TRIALS, _NEW_PARAMETERS = insert(_TRIALS), insert(_PARAMETERS)
+_NEW_ATTRIBUTES, _NEW_VALUE = insert(_ATTRIBUTES), insert(_VALUES)
+_ADDED = (
+    select(_TRIALS.c.number, _TRIALS.c.trial_id)
+    .where(_TRIALS.c.study_id == bindparam("study"), _TRIALS.c.trial_id > bindparam("latest"))
+    .order_by(_TRIALS.c.trial_id)
+)
+_FINISHED = update(_TRIALS).where(_TRIALS.c.trial_id == bindparam("trial"), _TRIALS.c.state == TrialState.WAITING)
+"""Statements are made once: making one takes longer than carrying it out."""
+
 _ELSEWHERE = "another process continues this study at the same time. Hint: end one of them, then resume"
 
 
@@ -142,17 +153,17 @@ class StoredStudy:
             return
         with working(self.place), self._storage.engine.begin() as connection:
             # Whoever else begins evaluations of this study waits here, so that what he began is seen below.
-            connection.execute(select(_STUDIES.c.study_id).where(_STUDIES.c.study_id == self._study).with_for_update())
+            connection.execute(_LOCK, {"study": self._study})
             rows = [{"number": job.number, "study_id": self._study, "state": TrialState.WAITING} for job in new]
-            connection.execute(insert(_TRIALS), rows)
+            connection.execute(_NEW_TRIALS, rows)
             added = self._after(connection, max(self._trials.values(), default=0))
             if [number for number, _ in added] != [job.number for job in new]:
                 raise StudyError(_ELSEWHERE)
             ids = dict(added)
             rows = [row for job in new for row in _parameter_rows(ids[job.number], job, space)]
-            connection.execute(insert(_PARAMETERS), rows)
+            connection.execute(_NEW_PARAMETERS, rows)
             rows = [row for job in new for row in _attribute_rows(ids[job.number], _known(job))]
-            connection.execute(insert(_ATTRIBUTES), rows)
+            connection.execute(_NEW_ATTRIBUTES, rows)
         self._trials |= ids
 
     def finish(self, evaluation: Evaluation) -> None:
@@ -164,22 +175,24 @@ class StoredStudy:
         number = self._trials[evaluation.number]
         state = TrialState.FAIL if evaluation.score is None else TrialState.COMPLETE
         now = datetime.now(UTC).replace(tzinfo=None)
-        times = {"datetime_start": now - timedelta(seconds=evaluation.wall_seconds), "datetime_complete": now}
-        waiting = (_TRIALS.c.trial_id == number) & (_TRIALS.c.state == TrialState.WAITING)
+        values = {
+            "trial": number,
+            "state": state,
+            "datetime_start": now - timedelta(seconds=evaluation.wall_seconds),
+            "datetime_complete": now,
+        }
         with working(self.place), self._storage.engine.begin() as connection:
-            if not connection.execute(update(_TRIALS).where(waiting).values(state=state, **times)).rowcount:
+            if not connection.execute(_FINISHED, values).rowcount:
                 raise StudyError(_ELSEWHERE)
-            connection.execute(insert(_ATTRIBUTES), _attribute_rows(number, _results(evaluation)))
+            connection.execute(_NEW_ATTRIBUTES, _attribute_rows(number, _results(evaluation)))
             if evaluation.score is not None:
                 value = shown_value(evaluation.score, bool(self.header.stages))
-                connection.execute(insert(_VALUES), {"trial_id": number, "value": value, **_ONLY_OBJECTIVE})
+                connection.execute(_NEW_VALUE, {"trial_id": number, "value": value, **_ONLY_OBJECTIVE})
 
     def _after(self, connection: Connection, latest: int) -> list[tuple[int, int]]:
         """Return (number, id) of the trials of this study that were added after one, in order."""
-        found = select(_TRIALS.c.number, _TRIALS.c.trial_id).where(
-            _TRIALS.c.study_id == self._study, _TRIALS.c.trial_id > latest
-        )
-        return [(number, trial) for number, trial in connection.execute(found.order_by(_TRIALS.c.trial_id))]
+        found = connection.execute(_ADDED, {"study": self._study, "latest": latest})
+        return [(number, trial) for number, trial in found]
 
 
 def shown_value(score: Score, staged: bool) -> float:

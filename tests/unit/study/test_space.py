@@ -68,6 +68,16 @@ def test_what_follows_gets_the_same_text(space):
     assert found.all_names == ("weight", "start")
 
 
+def test_what_is_mirrored_gets_the_negative_to_the_last_bit(space):
+    found = space({"weight": {"also": ["start", "-bias"], "range": [0.1, 0.9], "scale": "log"}})
+    for coordinate in (0.0, 0.3, 1.0):
+        values = found.parameters(np.array([coordinate]))
+        assert values["start"] == values["weight"]
+        assert float(values["bias"]) == -float(values["weight"]) < 0.0
+    assert found.all_names == ("weight", "start", "bias")
+    assert Dimension("x", (("y", -1),), -1.0, 1.0, "mm", log=False).texts(0.5) == {"x": "0.0 mm", "y": "0.0 mm"}
+
+
 def test_a_point_outside_of_the_box_counts_as_its_edge(space):
     found = space({"bias": {}})
     assert found.parameters(np.array([1.7])) == found.parameters(np.array([1.0]))

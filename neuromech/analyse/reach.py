@@ -23,7 +23,7 @@ class Possible:
     words: tuple[str, ...] | None = None
 
     @classmethod
-    def of(cls, kind: MeasureKind, duration: float) -> Self:
+    def of(cls, kind: MeasureKind, duration: float = inf) -> Self:
         """Return what a kind of measure can give of a run of a certain duration (s)."""
         low = -inf if kind.least is None else kind.least
         high = inf if kind.most is None else kind.most
@@ -38,6 +38,18 @@ class Possible:
         low, high = expectation.interval
         low, high = max(low, self.low), min(high, self.high)
         return replace(self, low=low, high=high) if low <= high else None
+
+    def ratio(self) -> Self:
+        """Return what the ratio of two of these numbers can be."""
+        return replace(self, low=0.0 if self.low >= 0.0 or self.high <= 0.0 else -inf, high=inf)
+
+    def difference(self) -> Self:
+        """Return what the difference of two of these numbers can be."""
+        return replace(self, low=self.low - self.high, high=self.high - self.low)
+
+    def refusal(self, kind: str, unit: str | None) -> str:
+        """Return in words that a measure of a kind gives nothing but this."""
+        return f"can never be met: measure '{kind}' gives {self.text()}{f' {unit}' if unit else ''}"
 
     def text(self) -> str:
         """Return in words what is possible: `0 to 1`, `at least 0`, `rhythm, no rhythm`."""
