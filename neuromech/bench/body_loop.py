@@ -1,4 +1,4 @@
-"""The whole loop of a cat against bare steps of its engine in the same scene.
+"""The whole loop of a cat or a human against bare steps of its engine in the same scene.
 
 The bare side replays the joint torques that our loop applied, so that body and contacts move in the same way.
 """
@@ -25,8 +25,9 @@ from neuromech.compiler.program import Program
 from neuromech.graph.model import BodyModel
 from neuromech.pipeline import build_graph, load_document
 from neuromech.simulate.run import simulate
+from neuromech.simulate.start import drawn_body
 
-Scene = Literal["suspended", "standing"]
+Scene = Literal["suspended", "standing", "human"]
 Engine = Literal["pybullet", "mujoco"]
 
 SEED = 0
@@ -55,16 +56,23 @@ instances:
         ankle: {{stiffness: 40 N m/rad, rest_angle: -57 deg}}
 """
 _STANDING_HEIGHT = 0.21
+# What a document must record for its torques to be replayed.
+TORQUES: dict[Scene, tuple[str, ...]] = {
+    "suspended": (),
+    "standing": (),
+    "human": ("record.mechanics.every=1 ms",),
+}
 
 
-def cat(workspace: Workspace, scene: Scene, engine: Engine, changes: tuple[str, ...] = ()) -> Program:
-    """Return the cat in a scene.
+def body(workspace: Workspace, scene: Scene, engine: Engine, changes: tuple[str, ...] = ()) -> Program:
+    """Return the cat in a scene, or the human who walks.
 
     Raises:
-        DocumentError: the engine is not known or cannot move the cat.
+        DocumentError: the engine is not known or cannot move the body.
         MissingExtraError: the engine is not installed.
     """
-    file = workspace.specs / "cat" / "suspended.yaml"
+    folder, name = ("human", "walk") if scene == "human" else ("cat", "suspended")
+    file = workspace.specs / folder / f"{name}.yaml"
     if scene == "standing":
         text = _STANDING.format(extended=file.resolve(), height=_STANDING_HEIGHT)
         file = workspace.folder / "standing.yaml"
@@ -79,15 +87,29 @@ def loop_over_bare(workspace: Workspace, scene: Scene, engine: Engine) -> Iterat
     Raises:
         NeuromechError: the engine is not there, or has no compiled functions.
     """
-    program = cat(workspace, scene, engine)
+    program = body(workspace, scene, engine)
     seconds = workspace.body_seconds
-    torques = applied_torques(program, seconds)
+    torques = applied_torques(body(workspace, scene, engine, TORQUES[scene]), seconds)
     bare = _bare_pybullet if engine == "pybullet" else _bare_native
     yield Comparison(
         lambda: loop_seconds_per_step(program, seconds),
         lambda: bare(program, torques),
         "s/step",
         "stepSimulation alone" if engine == "pybullet" else "mj_step in a compiled loop",
+        {"scene": scene, "simulated_seconds": seconds},
+    )
+
+
+@contextmanager
+def real_time_factor(workspace: Workspace, scene: Scene, engine: Engine) -> Iterator[Comparison]:
+    """Measure how many simulated seconds the loop, as the document records, makes in a second."""
+    program = body(workspace, scene, engine)
+    seconds = workspace.body_seconds
+    yield Comparison(
+        lambda: program.tick / loop_seconds_per_step(program, seconds),
+        None,
+        "simulated s/s",
+        "",
         {"scene": scene, "simulated_seconds": seconds},
     )
 
@@ -124,9 +146,9 @@ def _bare_pybullet(program: Program, torques: Floats) -> float:
 
     pybullet.stepSimulation = timed
     try:
-        with PyBulletBody(_model(program), program.tick, "python") as body:
+        with PyBulletBody(_model(program), program.tick, "python") as engine:
             for torque in torques:
-                body.step(torque)
+                engine.step(torque)
     finally:
         pybullet.stepSimulation = step
     return spent / len(torques)
@@ -134,24 +156,25 @@ def _bare_pybullet(program: Program, torques: Floats) -> float:
 
 def _bare_native(program: Program, torques: Floats) -> float:
     """Return the mean time of the engine's compiled step with replayed torques, nothing read (s)."""
-    with open_body(_model(program), program.tick) as body:
-        engine = body.native()
-        if engine is None or body.native_module is None:
-            raise PeerError(f"{body.engine.name} has no compiled functions here")
-        replay = _replay(body.native_module)
+    with open_body(_model(program), program.tick) as opened:
+        engine = opened.native()
+        if engine is None or opened.native_module is None:
+            raise PeerError(f"{opened.engine.name} has no compiled functions here")
+        replay = _replay(opened.native_module)
         replay(engine, torques[:0])
         started = time.perf_counter()
         failure = replay(engine, torques)
         spent = time.perf_counter() - started
         if failure:
-            body.check()
+            opened.check()
         return spent / len(torques)
 
 
 def _model(program: Program) -> BodyModel:
-    if program.graph.body is None:
-        raise ValueError("a cat has a body")
-    return program.graph.body
+    model = drawn_body(program.graph, SEED)
+    if model is None:
+        raise ValueError("cats and humans have bodies")
+    return model
 
 
 @lru_cache

@@ -5,7 +5,7 @@ from contextlib import AbstractContextManager
 from dataclasses import replace
 from functools import partial
 
-from neuromech.bench.body_loop import Engine, Scene, cat, loop_over_bare
+from neuromech.bench.body_loop import Engine, Scene, body, loop_over_bare, real_time_factor
 from neuromech.bench.muscle_speed import against_muscle
 from neuromech.bench.network_speed import PERIOD_TOLERANCE, against_c, against_script, small_network
 from neuromech.bench.pairing import Comparison, Result, failed, measure
@@ -35,7 +35,7 @@ def _brian2(target: str) -> Opener:
 
 def _threads_of_cats(engine: Engine) -> Opener:
     def opener(workspace: Workspace) -> AbstractContextManager[Comparison]:
-        return two_threads(cat(workspace, "suspended", engine), workspace.body_seconds)
+        return two_threads(body(workspace, "suspended", engine), workspace.body_seconds)
 
     return opener
 
@@ -56,6 +56,10 @@ BENCHMARKS: dict[str, dict[str, Opener]] = {
         "suspended": _loop("suspended", "mujoco"),
         "standing": _loop("standing", "mujoco"),
     },
+    "human_loop_over_bare_step_pybullet": {"": _loop("human", "pybullet")},
+    "human_loop_over_bare_step_mujoco": {"": _loop("human", "mujoco")},
+    "human_real_time_factor_pybullet": {"": partial(real_time_factor, scene="human", engine="pybullet")},
+    "human_real_time_factor_mujoco": {"": partial(real_time_factor, scene="human", engine="mujoco")},
     "network_over_c": {"": against_c},
     "network_over_brian2_cpp": {"": _brian2("cpp")},
     "network_over_brian2_cython": {"": _brian2("cython")},

@@ -9,7 +9,7 @@ from typing import Any
 
 from ruamel.yaml import YAML
 
-from neuromech.bench.body_loop import SEED, cat
+from neuromech.bench.body_loop import SEED, body
 from neuromech.bench.network_speed import c_program, seconds_per_step, small_network
 from neuromech.bench.pairing import Comparison
 from neuromech.bench.peers import Peer
@@ -92,8 +92,8 @@ def two_processes_of_c(workspace: Workspace) -> Iterator[Comparison]:
 @contextmanager
 def recording(workspace: Workspace) -> Iterator[Comparison]:
     """Compare the suspended cat with every signal recorded at 1 kHz with the same run that records nothing."""
-    nothing = cat(workspace, "suspended", "pybullet", ("record=null",))
-    everything = cat(workspace, "suspended", "pybullet", _EVERYTHING)
+    nothing = body(workspace, "suspended", "pybullet", ("record=null",))
+    everything = body(workspace, "suspended", "pybullet", _EVERYTHING)
     seconds = workspace.body_seconds
     yield Comparison(
         lambda: _seconds(everything, seconds),

@@ -9,12 +9,14 @@ from neuromech.compiler.shape import (
     argument_names,
     evaluated_with_body,
     has_feedthrough,
+    is_commanded,
+    is_divided,
     is_scheduled,
 )
 from neuromech.compiler.template import BODY, GATHER, GATHER_SLOTS, NETWORK, NO_BODY, ROWS, STEPPERS, TEAM_GATHER
 
 # Arguments of `advance` that are no state, input or parameter.
-_OF_STEP = {"duration": "dt", "longest_step": "p[<muscle_step>]"}
+_OF_STEP = ("duration", "elapsed")
 
 
 def generate(shape: Shape) -> str:
@@ -52,6 +54,7 @@ def _fill(text: str, shape: Shape) -> str:
         "delays": shape.has_delays,
         "shared weights": shape.has_shared_weights,
         "relays": relays,
+        "commanded": any(is_commanded(kind.cls) for kind in shape.kinds),
         "memory": any(kind.cls.advance for kind in shape.kinds if not evaluated_with_body(kind.cls)),
     }
     for name, flag in flags.items():
@@ -79,8 +82,8 @@ def _imports(shape: Shape) -> str:
         "from neuromech.compiler.dynamics import inertia_of_all",
         "from neuromech.compiler.kinematics import contact_positions, forward_kinematics, roll_pitch_yaw",
         "from neuromech.compiler.kinematics import segment_velocities, world_axis",
-        "from neuromech.compiler.numerics import compiled, copy_from, elementwise, interpolate, part, relaxed",
-        "from neuromech.compiler.numerics import sum_at, weighted_sum_at",
+        "from neuromech.compiler.numerics import compiled, copy_from, elementwise, inlined, interpolate",
+        "from neuromech.compiler.numerics import part, relaxed, sum_at, weighted_sum_at",
         "from neuromech.compiler.paths import LEVER_ARMS, STRAIGHT_LINES, lever, straight_path",
         "from neuromech.compiler.team import DONE, FIRST, HELPERS, LAST, NEXT, ORDER, PART, STOP",
         "from neuromech.compiler.team import add, load, rest_now_and_then, store",
@@ -166,7 +169,7 @@ def _call(kind: KindShape, function: Callable[..., Any], part: str) -> Iterator[
 
 def _argument(kind: KindShape, name: str) -> str:
     if name in _OF_STEP:
-        return _OF_STEP[name]
+        return name
     own = {*(state.name for state in kind.cls.states), *(port.name for port in kind.cls.inputs)}
     if name not in own and name not in kind.cls.model_fields:
         raise TypeError(f"{kind.cls.__qualname__}: '{name}' is no state, input port or parameter")
@@ -174,7 +177,7 @@ def _argument(kind: KindShape, name: str) -> str:
 
 
 def _dispatch(function: str, shape: Shape, *, with_body: bool) -> str:
-    order = function.replace("evaluate_", "") + "_order"
+    name = function.removeprefix("evaluate_")
     phase = [kind for kind in shape.kinds if evaluated_with_body(kind.cls) == with_body]
     kinds = [kind for kind in phase if is_scheduled(kind)]
     lines = [
@@ -189,22 +192,29 @@ def _dispatch(function: str, shape: Shape, *, with_body: bool) -> str:
             lines += _loop(kind, kind.cls.output, "output")
     if not kinds:
         return "\n".join([*lines, "    return"])
-    lines += [f"    for k in range(<{order}ed>):", f"        kind, i = I[<{order}> + 2 * k], I[<{order}> + 2 * k + 1]"]
+    lines += [
+        "    source = I[<row_source> :].view(np.uint32)",
+        "    row_start, weights, base = <row_start>, <weights>, <base>",
+        f"    for k in range(<{name}_ordered>):",
+        f"        kind, first, last = I[<{name}_order> + 3 * k : <{name}_order> + 3 * k + 3]",
+        f"        members = I[<{name}_members> + first : <{name}_members> + last]",
+    ]
     for branch, kind in enumerate(kinds):
-        output = kind.cls.output
-        if output is None:
-            continue
-        lines.append(f"        {'el' if branch else ''}if kind == {shape.kinds.index(kind)}:")
-        lines += [f"            {line}" for line in _locals(kind, output, "output")]
-        lines += [
-            "            gather(s, u, p, F, I, <"
-            + kind.name
-            + ".inputs> + i, 1, count, "
-            + str(len(kind.cls.inputs))
-            + ")"
-        ]
-        lines += [f"            {line}" for line in _call(kind, output, "output")]
+        if kind.cls.output:
+            lines.append(f"        {'el' if branch else ''}if kind == {shape.kinds.index(kind)}:")
+            lines += [f"            {line}" for line in _one_by_one(kind, kind.cls.output)]
     return "\n".join(lines)
+
+
+def _one_by_one(kind: KindShape, output: Callable[..., Any]) -> Iterator[str]:
+    """Yield a loop over `members` that sums the inputs of each before it evaluates it."""
+    yield from _locals(kind, output, "output")
+    yield f"inputs = <{kind.name}.inputs>"
+    yield "for i in members:"
+    for port in range(len(kind.cls.inputs)):
+        row = f"inputs + {port} * count + i"
+        yield f"    u[{row}] = arriving({row}, s, p, F, I, source, row_start, weights, base)"
+    yield from (f"    {line}" for line in _call(kind, output, "output"))
 
 
 def _inputs(shape: Shape) -> str:
@@ -247,8 +257,29 @@ def _advances(shape: Shape) -> str:
     for kind in shape.kinds:
         if kind.cls.advance:
             lines.append(f"    {_gather_all(kind, shape)}")
-            lines += _loop(kind, kind.cls.advance, "advance")
+            in_parts = is_divided(kind.cls)
+            lines += _divided_loop(kind, kind.cls.advance) if in_parts else _loop(kind, kind.cls.advance, "advance")
     return "\n".join([*lines, "    return"] if len(lines) == 3 else lines)
+
+
+def _divided_loop(kind: KindShape, function: Callable[..., Any]) -> Iterator[str]:
+    """Yield the loops of what advances by parts of the step: all instances by one part, then all by the next."""
+    states = [state.name for state in kind.cls.states]
+    means = [name for name, _ in _outputs_of(kind, "advance")]
+    yield from (f"    {line}" for line in _locals(kind, function, "advance"))
+    yield "    parts = max(1, int(np.ceil(dt / p[<muscle_step>] - 1e-9)))"
+    yield "    duration = dt / parts"
+    yield "    for i in range(count):"
+    yield from (f"        next_{name}[i] = {name}[i]" for name in states)
+    yield from (f"        {name}_out[i] = 0.0" for name in means)
+    yield "    for number in range(parts):"
+    yield "        elapsed = number * duration"
+    yield "        for i in range(count):"
+    arguments = [_argument(kind, name) for name in argument_names(function)]
+    now = ", ".join(f"next_{name}" if name.removesuffix("[i]") in states else name for name in arguments)
+    names = [*(f"next_{name}[i]" for name in states), *(f"part_of_{name}" for name in means)]
+    yield f"            {', '.join(names)} = {kind.name}_advance({now})"
+    yield from (f"            {name}_out[i] += part_of_{name} / parts" for name in means)
 
 
 def _arrivals(shape: Shape) -> str:

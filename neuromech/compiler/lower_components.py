@@ -10,17 +10,21 @@ import numpy as np
 from neuromech.compiler.buffers import Buffer
 from neuromech.compiler.layout import Layout
 from neuromech.compiler.numerics import Floats
-from neuromech.compiler.shape import KindShape, evaluated_with_body, parameter_names
+from neuromech.compiler.shape import KindShape, evaluated_with_body, is_divided, parameter_names
 from neuromech.compiler.wiring import varied
 from neuromech.components.base import Component, Port, State
 from neuromech.graph.model import Element, ModelGraph
+
+_AT_A_TIME = 8
 
 
 @dataclass(frozen=True)
 class Block:
     """All elements of one component class, sorted by name so that authored order changes nothing.
 
-    A population takes as many places of the block as it has neurons.
+    A population takes as many places of the block as it has neurons. Where a step is long work for each instance,
+    places that nobody looks at fill the block up to a multiple of what a processor evaluates at a time: what is left
+    over would take longer than all the rest.
     """
 
     shape: KindShape
@@ -35,13 +39,15 @@ class Block:
     @property
     def count(self) -> int:
         """Number of places."""
-        return self.starts[-1]
+        used = self.starts[-1]
+        return -(-used // _AT_A_TIME) * _AT_A_TIME if is_divided(self.shape.cls) else used
 
     def values(self, parameter: str) -> Floats:
         """Return a parameter at every place; (count,), SI units."""
         found = np.empty(self.count)
         for element, component, start in zip(self.elements, self.components, self.starts, strict=False):
             found[start : start + element.size] = _of_element(element, component, parameter)
+        found[self.starts[-1] :] = found[self.starts[-1] - 1]
         return found
 
 

@@ -171,31 +171,39 @@ def _delayed_weights(delayed: list[Bundle], first: int, layout: Layout, floats: 
 
 
 def evaluation_order(graph: ModelGraph, blocks: tuple[Block, ...], integers: Buffer) -> None:
-    """Write (kind, instance) pairs of what is evaluated one by one, senders before receivers.
+    """Write what is evaluated one by one, senders before receivers: groups of one kind that need none of each other.
 
-    Neurons come in one order, evaluated with the network; muscles and sensors in another, evaluated with the body.
+    Each group is its kind and the first and last of its members; members are places in the block of the kind. Neurons
+    come in one order, evaluated with the network; muscles and sensors in another, evaluated with the body.
     """
-    places: dict[str, Integers] = {}
+    places: dict[str, tuple[int, Integers]] = {}
     passing: dict[bool, set[str]] = defaultdict(set)
     for k, block in enumerate(blocks):
         if is_scheduled(block.shape):
             passing[evaluated_with_body(block.shape.cls)].update(element.name for element in block.elements)
             for element, start in zip(block.elements, block.starts, strict=False):
-                instances = np.arange(start, start + element.size)
-                places[element.name] = np.column_stack([np.full(element.size, k), instances]).ravel()
+                places[element.name] = k, np.arange(start, start + element.size)
     for with_body, name in ((False, "network"), (True, "mechanics")):
-        order = joined([places[element] for element in _sorted(graph, passing[with_body])], np.int64)
-        integers.add(f"{name}_order", order)
-        integers.header[f"{name}_ordered"] = len(order) // 2
+        groups = [
+            (kind, joined([places[element][1] for element in group if places[element][0] == kind], np.int64))
+            for group in _generations(graph, passing[with_body])
+            for kind in sorted({places[element][0] for element in group})
+        ]
+        ends = np.cumsum([0, *(len(members) for _, members in groups)], dtype=np.int64)
+        kinds = np.array([kind for kind, _ in groups], dtype=np.int64)
+        integers.add(f"{name}_order", np.column_stack([kinds, ends[:-1], ends[1:]]).ravel())
+        integers.add(f"{name}_members", joined([members for _, members in groups], np.int64))
+        integers.header[f"{name}_ordered"] = len(groups)
 
 
-def _sorted(graph: ModelGraph, names: set[str]) -> list[str]:
+def _generations(graph: ModelGraph, names: set[str]) -> list[list[str]]:
+    """Return the names in groups, each of which needs only groups before it."""
     inner = nx.DiGraph()
     inner.add_nodes_from(sorted(names))
     for sender, receiver, connection in graph.connections("synapse", "projection", "wire"):
         if sender in names and receiver in names and _passes_at_once(graph, receiver, connection):
             inner.add_edge(sender, receiver)
-    return list(nx.lexicographical_topological_sort(inner))
+    return [sorted(generation) for generation in nx.topological_generations(inner)]
 
 
 def _passes_at_once(graph: ModelGraph, receiver: str, connection: Connection) -> bool:

@@ -87,17 +87,17 @@ def sum_at(signals: Floats, places: Places) -> float:
 
 
 @_in_order
-def weighted_sum_at(weights: Floats, signals: Floats, places: Places) -> float:
-    """Return the weighted sum of signals at some places."""
-    fourth = len(places) // 4
+def weighted_sum_at(weights: Floats, signals: Floats, places: Places, shift: int, first: int, last: int) -> float:
+    """Return the weighted sum of the signals at `places` from `first` to `last`; weights stand `shift` further on."""
+    fourth = first + (last - first) // 4 * 4
     a, b, c, d = 0.0, 0.0, 0.0, 0.0
-    for k in range(fourth):
-        a += weights[4 * k] * signals[places[4 * k]]
-        b += weights[4 * k + 1] * signals[places[4 * k + 1]]
-        c += weights[4 * k + 2] * signals[places[4 * k + 2]]
-        d += weights[4 * k + 3] * signals[places[4 * k + 3]]
-    for k in range(4 * fourth, len(places)):
-        a += weights[k] * signals[places[k]]
+    for k in range(first, fourth, 4):
+        a += weights[shift + k] * signals[places[k]]
+        b += weights[shift + k + 1] * signals[places[k + 1]]
+        c += weights[shift + k + 2] * signals[places[k + 2]]
+        d += weights[shift + k + 3] * signals[places[k + 3]]
+    for k in range(fourth, last):
+        a += weights[shift + k] * signals[places[k]]
     return (a + b) + (c + d)
 
 

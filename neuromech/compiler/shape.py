@@ -15,7 +15,8 @@ COMMON = (
     "segment_start", "segment_first", "segment_last", "segment_weight", "segment_source",
     "delayed", "delayed_row", "delayed_source", "delayed_weight", "delay_steps",
     "history", "history_length", "history_width", "history_slot",
-    "network_order", "network_ordered", "mechanics_order", "mechanics_ordered",
+    "network_order", "network_ordered", "network_members",
+    "mechanics_order", "mechanics_ordered", "mechanics_members",
     "driven", "driven_start", "breakpoint_time", "breakpoint_value", "bound_start", "bound_slot",
     "groups", "group_every", "group_start", "group_row", "group_stretch", "stretch_start", "stretch_array", "place",
     "mean_first", "mean_count", "team", "substeps",
@@ -95,6 +96,19 @@ def has_feedthrough(cls: type[Component]) -> bool:
 def evaluated_with_body(cls: type[Component]) -> bool:
     """Return whether outputs are evaluated once per body step: muscles and sensors are."""
     return cls.family in ("muscle", "sensor")
+
+
+def is_commanded(cls: type[Component]) -> bool:
+    """Return whether an output of a muscle or sensor class depends at once on what a neuron tells it."""
+    if not evaluated_with_body(cls) or cls.output is None:
+        return False
+    told = {port for reference in cls.references().values() if reference.to == "neuron" for _, port in reference.wires}
+    return not told.isdisjoint(argument_names(cls.output))
+
+
+def is_divided(cls: type[Component]) -> bool:
+    """Return whether the states of a class advance by parts of a body step, all instances by one part after another."""
+    return cls.advance is not None and "duration" in argument_names(cls.advance)
 
 
 def is_scheduled(kind: KindShape) -> bool:

@@ -1,20 +1,25 @@
 """The parts of a generated step module that do not depend on the kinds in use. <name> is an offset or a count."""
 
 ROWS = '''
+@inlined
+def arriving(row, s, p, F, I, source, row_start, weights, base):
+    """Return the sum of the weighted signals that reach an input port."""
+    total = F[base + row] + weighted_sum_at(p, s, source, weights, I[row_start + row], I[row_start + row + 1])
+    if <shared weights>:
+        shared_source = I[<segment_source> :].view(np.uint32)
+        for g in range(I[<segment_start> + row], I[<segment_start> + row + 1]):
+            some = shared_source[I[<segment_first> + g] : I[<segment_last> + g]]
+            total += p[weights + I[<segment_weight> + g]] * sum_at(s, some)
+    return total
+
+
 @part
 def rows_between(s, u, p, F, I, first, last):
     """Sum the weighted signals that reach the input ports from `first` to `last`."""
-    row_start, weights, base = <row_start>, <weights>, <base>
     source = I[<row_source> :].view(np.uint32)
-    shared_source = I[<segment_source> :].view(np.uint32)
+    row_start, weights, base = <row_start>, <weights>, <base>
     for row in range(first, last):
-        a, b = I[row_start + row], I[row_start + row + 1]
-        total = F[base + row] + weighted_sum_at(p[weights + a : weights + b], s, source[a:b])
-        if <shared weights>:
-            for g in range(I[<segment_start> + row], I[<segment_start> + row + 1]):
-                some = shared_source[I[<segment_first> + g] : I[<segment_last> + g]]
-                total += p[weights + I[<segment_weight> + g]] * sum_at(s, some)
-        u[row] = total
+        u[row] = arriving(row, s, p, F, I, source, row_start, weights, base)
 '''
 
 GATHER = '''
@@ -111,16 +116,19 @@ NETWORK = '''
 def delayed_inputs(step, fraction, p, F, I):
     """Put into the base of each input what delayed synapses bring `fraction` steps after step `step`."""
     base, history, length, width = <base>, <history>, <history_length>, <history_width>
-    for row in range(<inputs>):
-        F[base + row] = 0.0
+    row, source, weight = <delayed_row>, <delayed_source>, <delayed_weight>
+    weights, delay, now = <weights>, <delay_steps>, step % length
+    for k in range(<inputs>):
+        F[base + k] = 0.0
     for k in range(<delayed>):
-        position = step + fraction - p[<delay_steps> + k]
-        earlier = int(np.floor(position))
-        share = position - earlier
-        column = history + I[<delayed_source> + k]
-        signal = (1.0 - share) * F[column + (earlier % length) * width]
-        signal += share * F[column + ((earlier + 1) % length) * width]
-        F[base + I[<delayed_row> + k]] += p[<weights> + I[<delayed_weight> + k]] * signal
+        ago = p[delay + k] - fraction
+        whole = int(np.ceil(ago))
+        earlier = now - whole if now >= whole else now - whole + length
+        later = earlier + 1 if earlier + 1 < length else 0
+        share = whole - ago
+        column = history + I[source + k]
+        signal = (1.0 - share) * F[column + earlier * width] + share * F[column + later * width]
+        F[base + I[row + k]] += p[weights + I[weight + k]] * signal
 
 
 @part
@@ -139,11 +147,12 @@ def fill_history(s, F, I):
 
 
 @part
-def stage(x, s, u, p, F, I, drive, rate, step, fraction):
-    """Evaluate the network at one state: signals, inputs, drive and rate of every state."""
-    if <delays>:
-        delayed_inputs(step, fraction, p, F, I)
-    network_outputs(x, s, u, p, F, I)
+def stage(x, s, u, p, F, I, drive, rate, step, fraction, known):
+    """Evaluate the network at one state: signals unless they are known, inputs, drive and rate of every state."""
+    if not known:
+        if <delays>:
+            delayed_inputs(step, fraction, p, F, I)
+        network_outputs(x, s, u, p, F, I)
     network_inputs(s, u, p, F, I)
     flows(x, u, p, I, drive, rate)
 
@@ -154,7 +163,7 @@ def derivative(t, x, dx, s, u, p, F, I):
     apply_protocol(t, p, I)
     n = <states>
     rate = F[<stages> : <stages> + n]
-    stage(x, s, u, p, F, I, dx, rate, 0, 0.0)
+    stage(x, s, u, p, F, I, dx, rate, 0, 0.0, False)
     for k in range(n):
         dx[k] -= rate[k] * x[k]
 
@@ -257,7 +266,7 @@ def begin(x, s, u, p, F, I):
 
 RK4 = '''
 @part
-def network_step(step, dt, x, s, u, p, F, I):
+def network_step(step, dt, x, s, u, p, F, I, known):
     """Advance the network by one step of the classical Runge–Kutta method."""
     n = <states>
     k0 = <stages>
@@ -265,37 +274,37 @@ def network_step(step, dt, x, s, u, p, F, I):
     now = F[k0 + n : k0 + 2 * n]
     drive = F[k0 + 2 * n : k0 + 3 * n]
     rate = F[k0 + 3 * n : k0 + 4 * n]
-    stage(x, s, u, p, F, I, drive, rate, step, 0.0)
+    stage(x, s, u, p, F, I, drive, rate, step, 0.0, known)
     if <delays>:
         remember(step, s, F, I)
     for k in range(n):
         slope = drive[k] - rate[k] * x[k]
         total[k] = slope
         now[k] = x[k] + 0.5 * dt * slope
-    stage(now, s, u, p, F, I, drive, rate, step, 0.5)
+    stage(now, s, u, p, F, I, drive, rate, step, 0.5, False)
     for k in range(n):
         slope = drive[k] - rate[k] * now[k]
         total[k] += 2.0 * slope
         now[k] = x[k] + 0.5 * dt * slope
-    stage(now, s, u, p, F, I, drive, rate, step, 0.5)
+    stage(now, s, u, p, F, I, drive, rate, step, 0.5, False)
     for k in range(n):
         slope = drive[k] - rate[k] * now[k]
         total[k] += 2.0 * slope
         now[k] = x[k] + dt * slope
-    stage(now, s, u, p, F, I, drive, rate, step, 1.0)
+    stage(now, s, u, p, F, I, drive, rate, step, 1.0, False)
     for k in range(n):
         x[k] += dt / 6.0 * (total[k] + drive[k] - rate[k] * now[k])
 '''
 
 EXPONENTIAL_EULER = '''
 @part
-def network_step(step, dt, x, s, u, p, F, I):
+def network_step(step, dt, x, s, u, p, F, I, known):
     """Advance the network by one step of exponential Euler: drive and rate held, the linear equation exact."""
     n = <states>
     k0 = <stages>
     drive = F[k0 : k0 + n]
     rate = F[k0 + n : k0 + 2 * n]
-    stage(x, s, u, p, F, I, drive, rate, step, 0.0)
+    stage(x, s, u, p, F, I, drive, rate, step, 0.0, known)
     if <delays>:
         remember(step, s, F, I)
     for k in range(n):
@@ -304,7 +313,7 @@ def network_step(step, dt, x, s, u, p, F, I):
 
 RUSH_LARSEN = '''
 @part
-def network_step(step, dt, x, s, u, p, F, I):
+def network_step(step, dt, x, s, u, p, F, I, known):
     """Advance the network by one step of the second-order Rush–Larsen method: one evaluation.
 
     Drive and rate of the step's middle, on the line through those of this step and of the last, are held.
@@ -315,7 +324,7 @@ def network_step(step, dt, x, s, u, p, F, I):
     rate = F[k0 + n : k0 + 2 * n]
     last_drive = F[k0 + 2 * n : k0 + 3 * n]
     last_rate = F[k0 + 3 * n : k0 + 4 * n]
-    stage(x, s, u, p, F, I, drive, rate, step, 0.0)
+    stage(x, s, u, p, F, I, drive, rate, step, 0.0, known)
     if <delays>:
         remember(step, s, F, I)
     ahead = 0.5 if step > 0 else 0.0
@@ -349,7 +358,7 @@ def run(first, last, dt, x, s, u, p, F, I, R):
             network_outputs(x, s, u, p, F, I)
             advance_states(dt, x, s, u, p, F, I)
         apply_protocol((step + 0.5) * dt, p, I)
-        network_step(step, dt, x, s, u, p, F, I)
+        network_step(step, dt, x, s, u, p, F, I, False)
         if <memory>:
             take_advanced(x, F, I)
         bad = first_bad(x)
@@ -517,9 +526,12 @@ def present(step, x, s, u, p, F, I, T, D):
     """Evaluate all signals of one instant; what sensors tell reaches muscles through units without memory at once."""
     if <delays>:
         delayed_inputs(step, 0.0, p, F, I)
-    network_outputs(x, s, u, p, F, I)
+    if <commanded>:
+        network_outputs(x, s, u, p, F, I)
     mechanics(x, s, u, p, F, I, T, D)
-    if <relays>:
+    if not <commanded>:
+        network_outputs(x, s, u, p, F, I)
+    elif <relays>:
         evaluate_network(x, s, u, p, F, I)
         evaluate_mechanics(x, s, u, p, F, I)
 
@@ -549,10 +561,14 @@ def tick(number, dt, x, s, u, p, F, I, R, T, D):
 
 @compiled
 def advance(number, dt, x, s, u, p, F, I):
-    """Advance the network over body step `number`, sensors held; return the position of a bad state or −1."""
+    """Advance the network over body step `number`, sensors held; return the position of a bad state or −1.
+
+    Where no parameter moves, the first step knows all signals from the body step's tick.
+    """
     steps = <substeps>
-    for step in range(number * steps, (number + 1) * steps):
+    for k in range(steps):
+        step = number * steps + k
         apply_protocol((step + 0.5) * dt / steps, p, I)
-        network_step(step, dt / steps, x, s, u, p, F, I)
+        network_step(step, dt / steps, x, s, u, p, F, I, k == 0 and <driven> == 0)
     return first_bad(x)
 '''

@@ -78,13 +78,14 @@ class Component(SpecModel):
     advance: ClassVar[Callable[..., Any] | None] = None
     """For states that no differential equation of the network moves: their values one body step later, in order.
 
-    Evaluated once per body step (per network step where there is no body), with the inputs of its start. Two more
-    arguments have a meaning: `duration`, of the step in s, and `longest_step`, the solver's `muscle_step` in s. What a
-    component gives besides its states are the last of its `outputs`, which `output` then leaves out.
+    Evaluated once per body step (per network step where there is no body), with the inputs of its start. With an
+    argument `duration` (s) the step is divided into equal parts that are no longer than the solver's `muscle_step`: it
+    is evaluated for each of them, with the states of its start; `elapsed` (s) is the time since the start of the body
+    step. What a component gives besides its states are the last of its `outputs`, which `output` then leaves out.
     """
 
     advanced_outputs: ClassVar[int] = 0
-    """How many of the last outputs `advance` gives. They hold for the coming step."""
+    """How many of the last outputs `advance` gives. They hold for the coming step; of its parts they are the mean."""
 
     @classmethod
     def kind_name(cls) -> str:

@@ -3,7 +3,7 @@
 Forces of the functions below are in units of the maximal isometric force.
 """
 
-from math import ceil, exp, log
+from math import exp, log
 from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
@@ -39,10 +39,8 @@ def velocity_of_force(factor: float, maximal_velocity: float, curvature: float, 
     Beyond `eccentric_force` lies a singularity, at 1.513 for the usual constants.
     """
     f = min(max(factor, 0.0), eccentric_force)
-    if f < 1.0:
-        return -maximal_velocity * (1.0 - f) / (1.0 + curvature * f)
-    slope = _ECCENTRIC_CURVATURE * curvature
-    return -maximal_velocity * (f - 1.0) / (slope * (f - eccentric_force) + 1.0 - eccentric_force)
+    eccentric = eccentric_force - 1.0 + _ECCENTRIC_CURVATURE * curvature * (eccentric_force - f)
+    return maximal_velocity * (f - 1.0) / (1.0 + curvature * f if f < 1.0 else eccentric)
 
 
 def tendon_force(tendon_length: float, slack_length: float, reference_strain: float) -> float:
@@ -194,32 +192,28 @@ class MuscleTendonUnit(Muscle):
         tendon_reference_strain: float,
         activation_time_constant: float,
         duration: float,
-        longest_step: float,
+        elapsed: float,
     ) -> tuple[float, float, float]:
-        """Return activation, fibre length (m) and mean force (N, trapezoid rule) of a body step; eq. 2.3–2.16, 2.40."""
-        parts = max(1, ceil(duration / longest_step - 1e-9))
-        dt = duration / parts
-        half_decay = exp(-0.5 * dt / activation_time_constant)
+        """Return activation, fibre length (m) and mean force (N, trapezoid rule) of a step; eq. 2.3–2.16, 2.40."""
+        half_decay = exp(-0.5 * duration / activation_time_constant)
+        middle = stimulation + (activation - stimulation) * half_decay
+        end = stimulation + (middle - stimulation) * half_decay
+        now = length + elapsed * velocity
+        halfway = now + 0.5 * duration * velocity
+        then = now + duration * velocity
         sizes = (optimal_length, tendon_slack_length, tendon_reference_strain, width, residual_force, eccentric_force)
         shape = (maximal_velocity, velocity_curvature, eccentric_force)
-        total = 0.5 * tendon_force(length - fibre_length, tendon_slack_length, tendon_reference_strain)
-        way = 0.5 * dt * velocity
-        for _ in range(parts):
-            middle = stimulation + (activation - stimulation) * half_decay
-            end = stimulation + (middle - stimulation) * half_decay
-            k1 = optimal_length * velocity_of_force(fibre_factor(activation, fibre_length, length, *sizes), *shape)
-            place = fibre_length + 0.5 * dt * k1
-            k2 = optimal_length * velocity_of_force(fibre_factor(middle, place, length + way, *sizes), *shape)
-            place = fibre_length + 0.5 * dt * k2
-            k3 = optimal_length * velocity_of_force(fibre_factor(middle, place, length + way, *sizes), *shape)
-            length += 2.0 * way
-            place = fibre_length + dt * k3
-            k4 = optimal_length * velocity_of_force(fibre_factor(end, place, length, *sizes), *shape)
-            fibre_length += dt / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4)
-            activation = end
-            force = tendon_force(length - fibre_length, tendon_slack_length, tendon_reference_strain)
-            total += force
-        return activation, fibre_length, maximal_force * (total - 0.5 * force) / parts
+        k1 = optimal_length * velocity_of_force(fibre_factor(activation, fibre_length, now, *sizes), *shape)
+        place = fibre_length + 0.5 * duration * k1
+        k2 = optimal_length * velocity_of_force(fibre_factor(middle, place, halfway, *sizes), *shape)
+        place = fibre_length + 0.5 * duration * k2
+        k3 = optimal_length * velocity_of_force(fibre_factor(middle, place, halfway, *sizes), *shape)
+        place = fibre_length + duration * k3
+        k4 = optimal_length * velocity_of_force(fibre_factor(end, place, then, *sizes), *shape)
+        reached = fibre_length + duration / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4)
+        first = tendon_force(now - fibre_length, tendon_slack_length, tendon_reference_strain)
+        last = tendon_force(then - reached, tendon_slack_length, tendon_reference_strain)
+        return end, reached, 0.5 * maximal_force * (first + last)
 
     def states_at_rest(self, length: float) -> dict[str, float]:
         """Return the fibre length (m) at which the fibre, at its first activation, stands still.

@@ -22,12 +22,13 @@ from neuromech.pipeline import build_graph, load_document
 PARTS = {
     "kinematics": "kinematics(s, F, I, T, D)",
     "paths, muscles and sensors, kinematics included": "mechanics(x, s, u, p, F, I, T, D)",
+    "states that components advance": "advance_states(1e-3, x, s, u, p, F, I)",
     "mass matrix": "inertia_of_all(T[0], T[1], I[ROOT], D[0], D[1], D[7], D[8])",
     "torques and coupling, mass matrix included": "torques(1e-3, x, s, u, p, F, I, T, D)",
     "network: outputs": "network_outputs(x, s, u, p, F, I)",
     "network: inputs": "network_inputs(s, u, p, F, I)",
     "network: flows": "flows(x, u, p, I, drive, rate)",
-    "network: one stage": "stage(x, s, u, p, F, I, drive, rate, 0, 0.0)",
+    "network: one stage": "stage(x, s, u, p, F, I, drive, rate, 0, 0.0, False)",
     "tick: everything at one instant, recording included": "tick(k, 1e-3, x, s, u, p, F, I, R, T, D)",
     "advance: the network over the body step": "advance(k, 1e-3, x, s, u, p, F, I)",
 }

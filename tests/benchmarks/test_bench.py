@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from neuromech.bench.body_loop import SEED as BODY_SEED
-from neuromech.bench.body_loop import Engine, applied_torques, cat
+from neuromech.bench.body_loop import TORQUES, Engine, Scene, applied_torques, body
 from neuromech.bench.catalogue import BENCHMARKS, run, worst
 from neuromech.bench.network import export, header, period
 from neuromech.bench.network_speed import REFERENCE, SEED, against_script, compared, small_network
@@ -21,12 +21,17 @@ from neuromech.bodies.factory import open_body
 from neuromech.cli.bench import as_markdown
 from neuromech.cli.main import run_arguments
 from neuromech.simulate.run import simulate
+from neuromech.simulate.start import drawn_body
 
 ROOT = Path(__file__).parents[2]
 PEERS = Path(__file__).parent / "peers"
 TABLE = {
     "pybullet_loop_over_bare_step",
     "mujoco_loop_over_bare_step",
+    "human_loop_over_bare_step_pybullet",
+    "human_loop_over_bare_step_mujoco",
+    "human_real_time_factor_pybullet",
+    "human_real_time_factor_mujoco",
     "network_over_c",
     "network_over_brian2_cpp",
     "network_over_brian2_cython",
@@ -170,19 +175,23 @@ def test_shared_parameters_are_one_number_in_the_header_and_others_an_array(work
     assert "#define NEURONS 76" in text
 
 
+@pytest.mark.parametrize("scene", ["suspended", "human"])
 @pytest.mark.parametrize("engine", ["pybullet", "mujoco"])
-def test_bare_steps_with_the_torques_of_the_loop_move_the_body_as_the_loop_did(workspace: Workspace, engine: Engine):
-    program = cat(workspace, "suspended", engine)
+def test_bare_steps_with_the_torques_of_the_loop_move_the_body_as_the_loop_did(
+    workspace: Workspace, scene: Scene, engine: Engine
+):
+    program = body(workspace, scene, engine, TORQUES[scene])
     torques = applied_torques(program, workspace.body_seconds)
     recording = simulate(program, seed=BODY_SEED, duration=workspace.body_seconds)
-    assert program.graph.body is not None
-    with open_body(program.graph.body, program.tick) as body:
+    model = drawn_body(program.graph, BODY_SEED)
+    assert model is not None
+    with open_body(model, program.tick) as opened:
         for torque in torques[:-1]:
-            body.step(torque)
-        state = np.zeros(body.layout.size)
-        body.read(state)
-        wanted = [recording.signal(f"{joint}.angle")[1][-1] for joint in body.joints]
-    assert state[body.layout.angles].tolist() == wanted
+            opened.step(torque)
+        state = np.zeros(opened.layout.size)
+        opened.read(state)
+        wanted = [recording.signal(f"{joint}.angle")[1][-1] for joint in opened.joints]
+    assert state[opened.layout.angles].tolist() == wanted
 
 
 def test_the_period_of_a_sine_is_its_period():

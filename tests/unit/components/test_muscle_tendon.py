@@ -164,18 +164,20 @@ def trial(tick, longest, force, optimal, slack, speed, fibre, base):
     Length is piecewise linear with corners at whole milliseconds, so that nothing but the integration errs.
     """
     steps = round(1e-3 / tick)
+    parts = max(1, round(tick / longest))
     found = np.zeros(300)
     activation, length = 0.01, base
     for k in range(300):
         velocity = 0.15 * np.sin(0.04 * k) + 0.02 * np.sin(0.31 * k)
         stimulation = 0.9 if 50 <= k < 180 else 0.02
         for _ in range(steps):
-            activation, fibre, mean = advance(
-                activation, fibre, stimulation, length, velocity, force, optimal, slack, speed,
-                0.56, 0.05, 5.0, 1.5, 0.04, 0.01, tick, longest,
-            )  # fmt: skip
+            for part in range(parts):
+                activation, fibre, mean = advance(
+                    activation, fibre, stimulation, length, velocity, force, optimal, slack, speed,
+                    0.56, 0.05, 5.0, 1.5, 0.04, 0.01, tick / parts, part * tick / parts,
+                )  # fmt: skip
+                found[k] += mean / steps / parts
             length += velocity * tick
-            found[k] += mean / steps
     return found
 
 
