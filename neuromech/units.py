@@ -58,6 +58,10 @@ class BoundText(str):
         self.parameter = parameter
         return self
 
+    def __getnewargs__(self) -> tuple[str, str]:  # type: ignore[override]
+        """Keep the parameter through copying and pickling; `str` only knows the text."""
+        return (str(self), self.parameter)
+
 
 @cache
 def common_units() -> dict[str, tuple[float, str]]:

@@ -3,13 +3,17 @@
 from collections.abc import Callable
 
 import numpy as np
-from scipy.signal import lfilter
+from scipy.ndimage import uniform_filter1d
+from scipy.signal import find_peaks, lfilter
 
 from neuromech.analyse.contacts import footfalls
 from neuromech.analyse.windows import Array, View
 
 FILTER_RATE = 100.0
 """Rate (1/s) of the first-order filter of the force of a foot; Dzeladini 2013 eq. 2.34."""
+
+HUMP = 0.05
+"""How far a hump of a force must stand out, in body weights."""
 
 
 def ground_reaction_peak(view: View) -> float:
@@ -28,6 +32,34 @@ def loading_peak(view: View) -> float:
 def push_off_peak(view: View) -> float:
     """Return the peak of the filtered vertical force in the second half of stance, as for `ground_reaction_peak`."""
     return _peak(view, lambda start, end: (0.5 * (start + end), end))
+
+
+def force_humps(view: View) -> float:
+    """Return how many humps the filtered vertical force has in a stance: mean of stances, mean of the `feet`.
+
+    A hump stands out by at least a twentieth of the body's weight from what lies between it and a higher one. The
+    filter is that of `ground_reaction_peak`; with `average_over` it is a moving average over this time instead.
+    """
+    counts = []
+    for foot in footfalls(view):
+        strides = foot.strides()
+        time, load = view.load(foot.name)
+        smooth = filtered(time, load) if view.spec.average_over is None else _averaged(view, time, load)
+        starts, ends = (np.searchsorted(time, times) for times in (strides.cycles.onsets[:-1], strides.liftoffs))
+        least = HUMP * view.weight()
+        counts.append(np.mean([_humps(smooth[start:end], least) for start, end in zip(starts, ends, strict=True)]))
+    return float(np.mean(counts))
+
+
+def _humps(load: Array, least: float) -> int:
+    surrounded = np.concatenate(([0.0], load, [0.0]))
+    return len(find_peaks(surrounded, prominence=least)[0])
+
+
+def _averaged(view: View, time: Array, load: Array) -> Array:
+    """Return a moving average of a force, samples at one rate, shape (n,)."""
+    step = float(time[-1] - time[0]) / (len(time) - 1)
+    return np.asarray(uniform_filter1d(load, max(1, round(view.number("average_over") / step))))
 
 
 def filtered(time: Array, load: Array) -> Array:

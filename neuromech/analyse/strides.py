@@ -4,7 +4,8 @@ from collections.abc import Callable
 
 import numpy as np
 
-from neuromech.analyse.contacts import Strides, footfalls
+from neuromech.analyse.contacts import Footfalls, Strides, footfalls
+from neuromech.analyse.cycles import FEWEST_CYCLES
 from neuromech.analyse.oscillation import cycles_of
 from neuromech.analyse.windows import Array, NotMeasurableError, View, Window
 
@@ -48,6 +49,28 @@ def double_support_duration(view: View) -> float:
     own, other = (np.clip(foot.contacts, onsets[0], onsets[-1]) for foot in (first, second))
     starts, ends = np.maximum.outer(own[:, 0], other[:, 0]), np.minimum.outer(own[:, 1], other[:, 1])
     return float(np.sum(np.maximum(ends - starts, 0.0)) / (2.0 * (len(onsets) - 1)))
+
+
+def flight_duration(view: View) -> float:
+    """Return the shortest time before a touchdown for which none of two `feet` is loaded (s), over all touchdowns.
+
+    Below zero where a foot touches down while the other is still loaded: then it is minus the longest time for which
+    both are, until the liftoff of the other. So it is above zero only for a gait with a flight in every step.
+    """
+    first, second = footfalls(view)
+    shares = [*_in_the_air(first, second), *_in_the_air(second, first)]
+    if len(shares) < 2 * FEWEST_CYCLES:
+        raise NotMeasurableError(f"{first.name} and {second.name} make fewer than {2 * FEWEST_CYCLES} steps")
+    return min(shares)
+
+
+def _in_the_air(foot: Footfalls, other: Footfalls) -> list[float]:
+    """Return the time (s) from the liftoff of the other foot to each touchdown, below zero where it comes later."""
+    foot.strides()
+    contacts = other.contacts
+    last = np.searchsorted(contacts[:, 0], foot.touchdowns, side="right") - 1
+    known = last >= 0
+    return [float(gap) for gap in foot.touchdowns[known] - contacts[last[known], 1]]
 
 
 def stance_asymmetry(view: View) -> float:

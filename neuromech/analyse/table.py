@@ -8,7 +8,7 @@ from typing import get_args
 from neuromech.analyse.curves import curve_correlation
 from neuromech.analyse.cycles import NO_RHYTHM
 from neuromech.analyse.energy import cost_of_transport, energy_per_distance, metabolic_energy, metabolic_power
-from neuromech.analyse.forces import ground_reaction_peak, loading_peak, push_off_peak
+from neuromech.analyse.forces import force_humps, ground_reaction_peak, loading_peak, push_off_peak
 from neuromech.analyse.kinds import MeasureKind
 from neuromech.analyse.levels import (
     correlation,
@@ -50,6 +50,7 @@ from neuromech.analyse.strides import (
     cycle_duration,
     double_support_duration,
     duty_factor,
+    flight_duration,
     fraction_in_stance,
     period_ratio,
     stance_asymmetry,
@@ -115,6 +116,7 @@ _STRIDES = {
     "swing_duration": MeasureKind(swing_duration, "time", ("feet",), least=0.0),
     "duty_factor": MeasureKind(duty_factor, "number", ("feet",), least=0.0, most=1.0),
     "double_support_duration": MeasureKind(double_support_duration, "time", ("feet",), feet=2, least=0.0),
+    "flight_duration": MeasureKind(flight_duration, "time", ("feet",), feet=2),
     "stance_asymmetry": MeasureKind(stance_asymmetry, "number", ("feet",), feet=2, least=0.0, most=2.0),
     "period_ratio": MeasureKind(
         period_ratio, "number", ("signals or feet",), ("least_amplitude",), feet=2, signals=2, least=0.0
@@ -130,6 +132,7 @@ _STRIDES = {
     "ground_reaction_peak": MeasureKind(ground_reaction_peak, "number", ("feet",), least=0.0),
     "loading_peak": MeasureKind(loading_peak, "number", ("feet",), least=0.0),
     "push_off_peak": MeasureKind(push_off_peak, "number", ("feet",), least=0.0),
+    "force_humps": MeasureKind(force_humps, "number", ("feet",), ("average_over",), least=0.0),
     "interlimb_phase": MeasureKind(interlimb_phase, "number", ("feet",), feet=2, least=0.0, most=1.0),
     "interlimb_phases": MeasureKind(interlimb_phases, "text", ("signals or feet",), ("least_amplitude",)),
     "gait": MeasureKind(gait, "text", ("signals or feet",), ("tolerance", "least_amplitude"), feet=4, words=GAITS),

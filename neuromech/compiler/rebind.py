@@ -2,17 +2,31 @@
 
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
+from typing import Final
 
 from neuromech.compiler.program import Program
 from neuromech.components.base import Component
 from neuromech.spec.follow import followers
+from neuromech.spec.model import Uniform
+from neuromech.spec.scalars import Written
+from neuromech.units import BoundText, measure
+
+_START: Final = "protocol.initial."
+
+
+def lowered_uses(program: Program, names: frozenset[str]) -> list[str]:
+    """Return the paths of a document that follow one of the parameters and that `rebound` cannot change.
+
+    Those are values that lowering itself or a rule about values looks at, such as a mass, a component's initial state
+    or the rest angle of a joint, and the breakpoints of a parameter that the protocol moves.
+    """
+    return [path for path in fixed_uses(program, names) if not path.startswith(_START)]
 
 
 def fixed_uses(program: Program, names: frozenset[str]) -> list[str]:
-    """Return the paths of a document that follow one of the parameters and that `rebound` cannot change.
+    """Return the paths of a document that follow one of the parameters and that cannot change during a run.
 
-    Those are values that lowering itself or a rule about values looks at, such as a mass, an initial state or the rest
-    angle of a joint, and the breakpoints of a parameter that the protocol moves.
+    Those of `lowered_uses`, and what `protocol.initial` says.
     """
     experiment, followed = program.graph.document.experiment, program.layout.followed - set(_looked_at(program))
     driven = [f"protocol.ramps.{name}" for name, ramp in experiment.protocol.ramps.items() if ramp.parameter in names]
@@ -22,17 +36,41 @@ def fixed_uses(program: Program, names: frozenset[str]) -> list[str]:
     return driven + [use.path for use in followers(experiment) if use.parameter in names and use.path not in followed]
 
 
-def rebound(program: Program, values: Mapping[str, float]) -> Program:
+def rebound(program: Program, values: Mapping[str, str]) -> Program:
     """Return the program that lowering would give if parameters had other values.
 
     Args:
-        program: from `lower`; `fixed_uses` finds nothing for these parameters.
-        values: name -> SI value. The document in the program's graph keeps the old ones.
+        program: from `lower`; `lowered_uses` finds nothing for these parameters.
+        values: name -> value as written. Of the document in the graph only `protocol.initial` takes them over.
     """
     parameters = program.parameters.copy()
     for name, value in values.items():
-        parameters[program.layout.bound_to(name)] = value
-    return replace(program, parameters=parameters)
+        parameters[program.layout.bound_to(name)] = measure(value)[0]
+    return _started(replace(program, parameters=parameters), values)
+
+
+def _started(program: Program, values: Mapping[str, str]) -> Program:
+    """Return a program whose `protocol.initial` has the values of the parameters that it follows."""
+    document = program.graph.document
+    protocol = document.experiment.protocol
+    initial = {name: _start(value, values) for name, value in protocol.initial.items()}
+    if initial == protocol.initial:
+        return program
+    begun = document.experiment.model_copy(update={"protocol": protocol.model_copy(update={"initial": initial})})
+    return replace(program, graph=replace(program.graph, document=replace(document, experiment=begun)))
+
+
+def _start(value: Written | Uniform, values: Mapping[str, str]) -> Written | Uniform:
+    if isinstance(value, Uniform):
+        low, high = (_followed(end, values) for end in value.uniform)
+        return Uniform.model_construct(uniform=(low, high))
+    return _followed(value, values)
+
+
+def _followed(value: Written, values: Mapping[str, str]) -> Written:
+    if isinstance(value, BoundText) and value.parameter in values:
+        return BoundText(values[value.parameter], value.parameter)
+    return value
 
 
 def _looked_at(program: Program) -> Iterator[str]:

@@ -94,6 +94,25 @@ class RectifiedPostureSensor(_PostureSensor):
         return max(0.0, direction * (angle_gain * (angle - reference_angle) + velocity_gain * velocity))
 
 
+class RectifiedJointSensor(Sensor):
+    """Angle of a joint against a reference, and its rate, as far as they call for a turn in one direction."""
+
+    kind: Literal["rectified_joint_sensor"] = "rectified_joint_sensor"
+    source: ClassVar[str] = "Dzeladini 2013 eq. 2.36 of a joint, section 2.1.3"
+    inputs: ClassVar[tuple[Port, ...]] = (Port("angle", "rad"), Port("velocity", "rad/s"))
+    outputs: ClassVar[tuple[Port, ...]] = (_SIGNAL,)
+
+    joint: Annotated[str, Reference("joint", (("angle", "angle"), ("velocity", "velocity")))]
+    reference_angle: Angle = quantity("0 deg")
+    angle_gain: Annotated[Quantity, INVERSE_ANGLE] = quantity("0 1/rad")
+    velocity_gain: Annotated[Quantity, INVERSE_ANGULAR_VELOCITY] = quantity("0 s/rad")
+    direction: Annotated[
+        Quantity, DIMENSIONLESS.within(-1.0, 1.0), Field(description="1 above the reference, −1 below it")
+    ] = quantity("1")
+
+    output = staticmethod(RectifiedPostureSensor.output)
+
+
 class OverextensionSensor(Sensor):
     """How far a joint is beyond an angle, while it moves on; negative rotation counts with a gain below zero."""
 

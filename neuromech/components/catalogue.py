@@ -11,6 +11,7 @@ from neuromech.components.body_sensors import (
     MuscleLengthSensor,
     OverextensionSensor,
     PostureSensor,
+    RectifiedJointSensor,
     RectifiedPostureSensor,
 )
 from neuromech.components.muscle_tendon import MuscleTendonUnit
@@ -26,7 +27,14 @@ from neuromech.components.reflexes import (
     SaturatingNeuron,
     ThresholdUnit,
 )
-from neuromech.components.sensors import JointSensor, LegLoadSensor, LinkSensor, MuscleSpindle, StretchSensor
+from neuromech.components.sensors import (
+    ContactSensor,
+    JointSensor,
+    LegLoadSensor,
+    LinkSensor,
+    MuscleSpindle,
+    StretchSensor,
+)
 from neuromech.components.synapses import (
     DescendingDrive,
     ExcitatorySynapse,
@@ -62,10 +70,12 @@ BUILT_IN: tuple[type[Component], ...] = (
     LegLoadSensor,
     JointSensor,
     LinkSensor,
+    ContactSensor,
     MuscleForceSensor,
     MuscleLengthSensor,
     PostureSensor,
     RectifiedPostureSensor,
+    RectifiedJointSensor,
     OverextensionSensor,
 )
 

@@ -147,3 +147,22 @@ class LinkSensor(Sensor):
     def output(value: float, reference: float, gain: float) -> float:
         """Return gain (value − reference)."""
         return gain * (value - reference)
+
+
+class ContactSensor(Sensor):
+    """One number of a contact, such as its place in the world, relative to a reference and scaled. All in SI units."""
+
+    kind: Literal["contact_sensor"] = "contact_sensor"
+    source: ClassVar[str] = "linear"
+    inputs: ClassVar[tuple[Port, ...]] = (Port("value", "*"),)
+    outputs: ClassVar[tuple[Port, ...]] = (_SIGNAL,)
+
+    contact: Annotated[str, Reference("contact", (("{quantity}", "value"),))]
+    quantity: Literal["x", "y", "z", "force_x", "force_y", "force_z"]
+    reference: Dimensionless = Quantity(0.0)
+    gain: Dimensionless = Quantity(1.0)
+
+    @staticmethod
+    def output(value: float, reference: float, gain: float) -> float:
+        """Return gain (value − reference)."""
+        return gain * (value - reference)

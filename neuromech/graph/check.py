@@ -85,6 +85,9 @@ VALUE_RULES: tuple[Rule, ...] = (
 )
 """Rules that look at one element at a time, and so hold in a graph with missing edges too."""
 
+START_RULES: tuple[Rule, ...] = (angle_starts_outside_range, two_heights, start_below_ground)
+"""Rules about how a body starts."""
+
 RULES: tuple[Rule, ...] = (
     *VALUE_RULES,
     hinge_engine,
@@ -108,9 +111,7 @@ RULES: tuple[Rule, ...] = (
     measure_of_unrecorded,
     initial_matches_nothing,
     initial_of_wrong_unit,
-    angle_starts_outside_range,
-    two_heights,
-    start_below_ground,
+    *START_RULES,
     pendulum_in_the_body,
 )
 
@@ -121,11 +122,24 @@ def check(graph: ModelGraph) -> None:
     Raises:
         DocumentError: with every problem found.
     """
-    problems = broken(graph, RULES)
-    if problems:
-        raise DocumentError(problems)
+    _refuse(graph, RULES)
+
+
+def check_start(graph: ModelGraph) -> None:
+    """Check how the body of a graph starts; all else is known to be right.
+
+    Raises:
+        DocumentError: with every problem found.
+    """
+    _refuse(graph, START_RULES)
 
 
 def broken(graph: ModelGraph, rules: Iterable[Rule]) -> list[Problem]:
     """Return what is wrong by some rules."""
     return [problem for rule in rules for problem in rule(graph)]
+
+
+def _refuse(graph: ModelGraph, rules: Iterable[Rule]) -> None:
+    problems = broken(graph, rules)
+    if problems:
+        raise DocumentError(problems)

@@ -8,7 +8,7 @@ from pydantic.fields import FieldInfo
 
 from neuromech.components.base import SpecModel
 from neuromech.spec.model import Experiment
-from neuromech.units import Quantity, Unit
+from neuromech.units import BoundText, Quantity, Unit
 
 _SECTIONS = ("network", "muscles", "sensors", "instances", "body", "world", "protocol", "solver", "record")
 
@@ -37,6 +37,8 @@ def _walk(value: object, path: str, unit: Unit | None) -> Iterator[Follower]:
     if isinstance(value, Quantity):
         if value.parameter is not None:
             yield Follower(path, value.parameter, unit)
+    elif isinstance(value, BoundText):
+        yield Follower(path, value.parameter, unit)
     elif isinstance(value, SpecModel):
         for name, field in type(value).model_fields.items():
             yield from _walk(getattr(value, name), f"{path}.{name}", field_unit(field))

@@ -50,7 +50,7 @@ class Parameter(SpecModel):
 class Uniform(SpecModel):
     """A uniform distribution over an interval; the unit is that of the value it stands for."""
 
-    uniform: tuple[Written, Written]
+    uniform: tuple[Following, Following]
 
 
 class Population(SpecModel):

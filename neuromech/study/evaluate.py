@@ -122,10 +122,10 @@ class Evaluator:
             try:
                 if planned.scenario not in programs:
                     programs[planned.scenario] = self._scenario(planned.scenario).program(job.parameters)
+                look = _Look(self.objective, threshold)
+                recording = self._simulate(programs[planned.scenario], seed, look)
             except DocumentError as error:
                 return str(error)
-            look = _Look(self.objective, threshold)
-            recording = self._simulate(programs[planned.scenario], seed, look)
             end = recording.outcome
             if end.kind == "stopped" and not look.is_hopeless:
                 raise KeyboardInterrupt

@@ -5,24 +5,23 @@ from dataclasses import replace
 
 from neuromech.compiler.lower import lower
 from neuromech.compiler.program import Program
-from neuromech.compiler.rebind import fixed_uses, rebound
+from neuromech.compiler.rebind import lowered_uses, rebound
 from neuromech.compiler.records import recorded
 from neuromech.components.catalogue import Catalogue
 from neuromech.graph.build import build
-from neuromech.graph.check import check
+from neuromech.graph.check import check, check_start
 from neuromech.graph.model import ModelGraph
 from neuromech.graph.signals import matching
 from neuromech.spec.includes import Composed
 from neuromech.spec.load import load_composed
 from neuromech.spec.measure import Measure
-from neuromech.units import measure as si_value
 
 
 class ScenarioProgram:
     """A document with the changes of one scenario.
 
-    Where every tuned parameter is one that could also move during a run, a candidate costs a copy of the parameter
-    buffer; otherwise its document is resolved and lowered anew.
+    Where every tuned parameter is one that could also move during a run, or that says how the run starts, a candidate
+    costs a copy of the parameter buffer; otherwise its document is resolved and lowered anew.
 
     Args:
         composed: the files of the document.
@@ -41,7 +40,7 @@ class ScenarioProgram:
         self._overrides = tuple(overrides)
         self._measures = tuple(measures)
         self._program = self._lowered(())
-        self._is_followed = not fixed_uses(self._program, frozenset(names))
+        self._is_followed = not lowered_uses(self._program, frozenset(names))
 
     def program(self, parameters: Mapping[str, str]) -> Program:
         """Return the program of a candidate.
@@ -53,7 +52,7 @@ class ScenarioProgram:
             DocumentError: these values make a document that is wrong.
         """
         if self._is_followed:
-            return rebound(self._program, {name: si_value(text)[0] for name, text in parameters.items()})
+            return _startable(rebound(self._program, parameters))
         return self._lowered([f"parameters.{name}.value={text}" for name, text in parameters.items()])
 
     def _lowered(self, overrides: Sequence[str]) -> Program:
@@ -61,6 +60,12 @@ class ScenarioProgram:
         graph = build(load_composed(self._composed, catalogue=Catalogue.installed(), overrides=changes))
         check(graph)
         return lower(recording_only(graph, self._measures))
+
+
+def _startable(program: Program) -> Program:
+    """Return a program of which no rule about the start of a body says that it is wrong."""
+    check_start(program.graph)
+    return program
 
 
 def recording_only(graph: ModelGraph, measures: Iterable[Measure]) -> ModelGraph:

@@ -161,6 +161,20 @@ def test_double_support_of_two_feet_in_antiphase(feet, duty):
     assert found == MeasuredValue(pytest.approx(expected, abs=5e-5), "s")
 
 
+@pytest.mark.parametrize("duty", [0.3, 0.4, 0.62])
+def test_flight_of_two_feet_in_antiphase(feet, duty):
+    rise, fall = edges(duty=duty)
+    found = take(feet(duty=duty), kind="flight_duration", **of("LF", "RF"))
+    assert found == MeasuredValue(pytest.approx((0.5 - fall + rise) * PERIOD, abs=5e-5), "s")
+
+
+def test_flight_is_that_of_the_shortest_step(feet):
+    rise, fall = edges(duty=0.3)
+    recording = feet((0.0, 0.4, 0.0, 0.0), duty=0.3)
+    expected = pytest.approx((0.4 - fall + rise) * PERIOD, abs=5e-5)
+    assert take(recording, kind="flight_duration", **of("LF", "RF")).value == expected
+
+
 def test_asymmetry_of_stance(record, burst):
     recording = record(
         {f"{leg}.foot.force_z": (burst(PERIOD, 0.0, duty, PEAK), "N") for leg, duty in (("L", 0.5), ("R", 0.7))}
@@ -233,3 +247,15 @@ def test_a_load_with_two_humps_has_two_peaks(record, time):
     gain = 1.0 / np.sqrt(1.0 + (2 * np.pi / 0.6 / 100.0) ** 2)
     assert first * 80.0 * 9.81 == pytest.approx(800.0 + 100.0 * gain, rel=2e-3)
     assert second < first - 0.05
+
+
+@pytest.mark.parametrize("humps", [1, 2, 3])
+def test_humps_of_a_force_are_counted_and_an_average_over_them_has_one(record, time, humps):
+    phase = (time / 1.0) % 1.0
+    wave = 0.6 - 0.4 * np.cos(2.0 * np.pi * humps * phase / 0.6)
+    recording = record(
+        {"L.foot.force_z": (np.where(phase < 0.6, 800.0 * wave, 0.0), "N")}, anatomy=Anatomy(80.0, 9.81, {})
+    )
+    assert take(recording, kind="force_humps", feet=["L.foot"]).value == humps
+    smooth = take(recording, kind="force_humps", feet=["L.foot"], average_over=f"{0.6 / humps!r} s")
+    assert smooth.value == 1.0

@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 from neuromech.compiler.lower import lower
-from neuromech.compiler.rebind import fixed_uses, rebound
+from neuromech.compiler.rebind import fixed_uses, lowered_uses, rebound
 from neuromech.pipeline import build_graph, load_document
+from neuromech.simulate.run import simulate
 from neuromech.units import measure
 
 CAT = Path(__file__).parents[3] / "specs" / "cat" / "quadruped_body.yaml"
@@ -64,7 +65,7 @@ def test_rewritten_and_lowered_anew_are_the_same_numbers(seed):
         values[name] = f"{generator.uniform(least, most)!r} {unit}".strip()
     original, expected = program(CAT), program(CAT, values)
     assert fixed_uses(original, frozenset(values)) == []
-    found = rebound(original, {name: measure(text)[0] for name, text in values.items()})
+    found = rebound(original, values)
     assert found.parameters.tobytes() == expected.parameters.tobytes() != original.parameters.tobytes()
     assert found.integers.tobytes() == expected.integers.tobytes()
     assert found.initial.tobytes() == expected.initial.tobytes()
@@ -90,3 +91,30 @@ def test_a_ramp_counts_as_well(document):
     ramp = {"ramps": {"up": {"parameter": "gain", "start": "0 s", "end": "1 s", "to": 1}}}
     changed = LEG | {"protocol": LEG["protocol"] | ramp}
     assert fixed_uses(program(document(changed)), frozenset({"gain"})) == ["protocol.ramps.up"]
+
+
+STARTS = {
+    "protocol": {
+        "duration": "50 ms",
+        "initial": {"hip.angle": "${angle}", "cell.potential": {"uniform": ["-70 mV", "${highest}"]}},
+    },
+    "parameters": LEG["parameters"] | {"angle": {"value": "5 deg"}, "highest": {"value": "-40 mV"}},
+    "record": {"all": {"signals": ["hip.angle", "cell.potential"], "every": "1 ms"}},
+}
+
+
+def test_the_start_of_a_run_is_rewritten_too(document):
+    values = {"angle": "-11 deg", "highest": "-60 mV"}
+    original, expected = program(document(LEG | STARTS)), program(document(LEG | STARTS), values)
+    found = rebound(original, values)
+    runs = [simulate(one, seed=4) for one in (found, expected, original)]
+    for signal in ("hip.angle", "cell.potential"):
+        rewritten, lowered, old = (run.signal(signal)[1].tobytes() for run in runs)
+        assert rewritten == lowered != old
+
+
+def test_the_start_of_a_run_cannot_change_during_it(document):
+    lowered = program(document(LEG | STARTS))
+    paths = ["protocol.initial.hip.angle", "protocol.initial.cell.potential.uniform.1"]
+    assert fixed_uses(lowered, frozenset({"angle", "highest"})) == paths
+    assert lowered_uses(lowered, frozenset({"angle", "highest"})) == []

@@ -9,6 +9,7 @@ from neuromech.components.body_sensors import (
     MuscleLengthSensor,
     OverextensionSensor,
     PostureSensor,
+    RectifiedJointSensor,
     RectifiedPostureSensor,
 )
 from neuromech.components.reflexes import GatedRelay, LatchUnit, LowPass, SampleAndHold, SaturatingNeuron, ThresholdUnit
@@ -77,6 +78,7 @@ def test_the_two_rectified_parts_of_posture_make_up_the_whole(angle, velocity):
     assert forward - backward == whole
     assert min(forward, backward) == 0.0
     assert whole == pytest.approx(1.9 * (angle - 0.1) + 0.25 * velocity)
+    assert RectifiedJointSensor.output(angle, velocity, *gains, -1.0) == backward
 
 
 @pytest.mark.parametrize(

@@ -6,7 +6,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from neuromech.components.sensors import JointSensor, LegLoadSensor, LinkSensor, MuscleSpindle, StretchSensor
+from neuromech.components.sensors import (
+    ContactSensor,
+    JointSensor,
+    LegLoadSensor,
+    LinkSensor,
+    MuscleSpindle,
+    StretchSensor,
+)
 
 L_TH = 0.060
 
@@ -56,6 +63,7 @@ def test_load_filter_answers_a_step_with_its_time_constant():
     assert load == pytest.approx(30.0 * (1.0 - exp(-1.0)), rel=1e-4)
 
 
-def test_joint_and_link_sensors_are_linear():
+def test_joint_link_and_contact_sensors_are_linear():
     assert JointSensor.output(0.4, -2.0, 0.1, 3.0, 0.5) == pytest.approx(3.0 * 0.3 - 1.0)
     assert LinkSensor.output(0.3, 0.5, -2.0) == pytest.approx(0.4)
+    assert ContactSensor.output(0.3, 0.5, -2.0) == pytest.approx(0.4)

@@ -127,6 +127,12 @@ def test_quantity_remembers_its_parameter(value, name):
         assert (twin, twin.parameter, type(twin)) == (value, name, Quantity)
 
 
+def test_text_of_a_parameter_remembers_it():
+    original = BoundText("5 mm", "width")
+    for twin in (pickle.loads(pickle.dumps(original)), copy.copy(original), copy.deepcopy(original)):
+        assert (twin, twin.parameter, type(twin)) == ("5 mm", "width", BoundText)
+
+
 def test_quantity_that_is_read_from_a_parameter_remembers_it():
     read = LENGTH.parse(BoundText("5 mm", "width"))
     assert (read, read.parameter) == (pytest.approx(5e-3), "width")

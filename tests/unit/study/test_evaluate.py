@@ -111,6 +111,53 @@ def test_values_that_break_the_document_are_a_failure_of_that_candidate(relaxing
     assert evaluator(replace(job, parameters=late)).failure is None
 
 
+@pytest.fixture
+def swinging(relaxing):
+    """The relaxing network and a leg on a hinge, of which a study tunes the angle at time zero."""
+    segment = {"mass": "1 kg", "center_of_mass": ["0 m", "0 m", "-0.2 m"], "inertia": ["1 kg m^2"] * 3}
+    hip = {
+        "parent": "trunk",
+        "child": "leg",
+        "position": ["0 m"] * 3,
+        "axis": [0, 1, 0],
+        "range": ["-40 deg", "40 deg"],
+    }
+    angle = {"value": "10 deg", "minimum": "-90 deg", "maximum": "90 deg"}
+    terms = {
+        "swing": {
+            "measure": {"kind": "maximum", "signal": "hip.angle"},
+            "goal": "maximize",
+            "scale": "1 deg",
+            "worst": 0,
+        }
+    }
+    return relaxing(
+        {"tune": {"angle": {}}, "objective": {"terms": terms}},
+        body={"engine": "hinge", "segments": {"trunk": segment, "leg": segment}, "joints": {"hip": hip}},
+        parameters=json.loads(relaxing().read_text())["parameters"] | {"angle": angle},
+        protocol={"duration": "100 ms", "initial": {"hip.angle": "${angle}"}},
+    )
+
+
+def with_angle(evaluator, angle):
+    return Job(0, 0, 0, {"angle": angle}, evaluator.scenarios.seeds(0))
+
+
+def test_the_start_of_a_run_can_be_tuned(swinging):
+    evaluator = Evaluator(swinging)
+    low, high = (evaluator(with_angle(evaluator, angle)) for angle in ("0 deg", "30 deg"))
+    angles = [run(swinging, [f"parameters.angle.value={one.parameters['angle']}"]) for one in (low, high)]
+    expected = [one.signal("hip.angle")[1].max() for one in angles]
+    assert [one.runs[0].measures["swing"] for one in (low, high)] == pytest.approx(expected)
+    assert expected[1] - expected[0] > 0.3
+
+
+def test_a_start_that_the_rules_refuse_is_a_failure_of_that_candidate(swinging):
+    evaluator = Evaluator(swinging)
+    failure = evaluator(with_angle(evaluator, "60 deg")).failure
+    assert "protocol.initial.hip.angle  is outside the range of joint 'hip'" in failure
+
+
 def test_a_hopeless_run_is_ended_and_graded_as_one_that_ended_early(relaxing):
     evaluator = Evaluator(relaxing({"stop_early": {"at": "100 ms"}}))
     asked = jobs(evaluator, 5)
