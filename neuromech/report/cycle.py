@@ -6,11 +6,14 @@ from matplotlib.figure import Figure
 
 from neuromech.analyse.contacts import Footfalls
 from neuromech.analyse.cycles import Cycles
-from neuromech.report.layout import BLUE, NotDrawableError, axis_label, by_scope, grid, rhythm_of, title, trace
+from neuromech.report.layout import BLUE, RED, NotDrawableError, axis_label, by_scope, grid, rhythm_of, title, trace
+from neuromech.report.references import Reference, references
 from neuromech.report.steps import feet, last_cycles, strides_of
 from neuromech.simulate.recording import Recording
 
 AVERAGED_CYCLES = 10
+
+_REFERENCE = "reference, shifted to the same mean"
 
 
 def cycle_figure(recording: Recording) -> Figure:
@@ -18,6 +21,7 @@ def cycle_figure(recording: Recording) -> Figure:
 
     A cycle begins at touchdown; of a leg that makes no strides, at the onset of its first rhythmic neuron, or of the
     joint itself. Bars show, mean over cycles, when the foot is loaded; whiskers one standard deviation of their end.
+    Curves that a claim compares an angle with are drawn beside it, shifted to the same mean.
 
     Raises:
         NotDrawableError: no joint angle was recorded, or none is rhythmic.
@@ -31,16 +35,19 @@ def cycle_figure(recording: Recording) -> Figure:
     if not legs:
         raise NotDrawableError("no leg moves rhythmically")
     rows = max(len(scopes[scope]) for scope in legs)
+    compared = references(recording)
     figure, axes = grid(rows, len(legs), 2.1 if len(legs) > 1 else 4.0, 1.5, sharex=True)
     for column, (scope, (cycles, start)) in enumerate(legs.items()):
         for row in range(rows):
             if row < len(scopes[scope]):
                 _panel(axes[row][column], recording, scopes[scope][row], cycles)
                 _bar(axes[row][column], contacts.get(scope), cycles)
+                _compare(axes[row][column], compared.get(scopes[scope][row]), contacts.get(scope), cycles)
             else:
                 axes[row][column].remove()
         axes[0][column].set_title(title(recording, scope), loc="left")
         axes[len(scopes[scope]) - 1][column].set_xlabel(f"% of cycle from\n{start}")
+    _legend(figure)
     return figure
 
 
@@ -75,6 +82,24 @@ def _panel(axes: Axes, recording: Recording, name: str, cycles: Cycles) -> None:
     axes.set_xticks([0, 25, 50, 75, 100])
     axes.set_ylabel(axis_label(angle.element, angle.unit))
     axes.margins(y=0.15)
+
+
+def _compare(axes: Axes, reference: Reference | None, foot: Footfalls | None, cycles: Cycles) -> None:
+    strides = None if foot is None else strides_of(foot)
+    if reference is None or strides is None:
+        return
+    percent = np.linspace(0.0, 100.0, 101)
+    duty = float(strides.duty_factors[-len(cycles.durations) :].mean())
+    angle = reference.at(percent, duty)
+    (mean,) = axes.get_lines()[:1]
+    shift = float(np.mean(mean.get_ydata()) - angle.mean())
+    axes.plot(percent, angle + shift, color=RED, linestyle="--", linewidth=1.0, label=_REFERENCE)
+
+
+def _legend(figure: Figure) -> None:
+    lines = [line for axes in figure.axes for line in axes.get_lines() if line.get_label() == _REFERENCE]
+    if lines:
+        figure.legend(handles=lines[:1], loc="outside lower center", frameon=False)
 
 
 def _bar(axes: Axes, foot: Footfalls | None, cycles: Cycles) -> None:

@@ -1,5 +1,7 @@
 """Figures of gait show the contacts that the measures count, and cycles as they are."""
 
+import json
+
 import numpy as np
 import pytest
 
@@ -118,6 +120,22 @@ def test_a_cycle_from_touchdown_shows_mean_spread_and_stance(record):
     assert bar.get_xdata()[1] == pytest.approx(62.5, abs=1.0)
     spread = axes.collections[0].get_paths()[0].get_extents()
     assert spread.height < np.ptp(expected) + 1.0
+
+
+@pytest.mark.parametrize(("begins_at", "peak"), [("touchdown", 25.0), ("liftoff", 87.5)])
+def test_a_claimed_reference_stands_beside_the_angle_with_the_same_mean(record, begins_at, peak):
+    angle = 0.5 + 0.2 * np.sin(2.0 * np.pi * TIME / PERIOD)
+    signals = {"LH.hip.angle": ("rad", angle), "LH.foot.force_z": ("N", stepping(0.1))}
+    curve = {"columns": ["-hip_deg"], "begins_at": begins_at, "phases": [0, 25, 50, 75], "values": [[0, 8, 0, -8]]}
+    measure = {"kind": "curve_correlation", "signals": ["LH.hip.angle"], "feet": ["LH.foot"], "curve": curve}
+    document = json.dumps({"claims": {"hip": {"measure": measure}, "gone": None}})
+    figure = cycle_figure(record(signals, specification=document))
+    mean, *_, reference = figure.axes[0].get_lines()
+    percent, shown = reference.get_data()
+    assert np.ptp(shown) == pytest.approx(16.0, abs=0.5)
+    assert shown.mean() == pytest.approx(mean.get_ydata().mean())
+    assert percent[np.argmax(shown)] == pytest.approx(peak, abs=2.0)
+    assert [text.get_text() for text in figure.legends[0].get_texts()] == ["reference, shifted to the same mean"]
 
 
 def test_a_cycle_in_the_air_starts_with_a_neuron(cat):
