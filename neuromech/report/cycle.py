@@ -92,7 +92,7 @@ def _compare(axes: Axes, reference: Reference | None, foot: Footfalls | None, cy
     duty = float(strides.duty_factors[-len(cycles.durations) :].mean())
     angle = reference.at(percent, duty)
     (mean,) = axes.get_lines()[:1]
-    shift = float(np.mean(mean.get_ydata()) - angle.mean())
+    shift = float(np.asarray(mean.get_ydata(), dtype=np.float64).mean() - angle.mean())
     axes.plot(percent, angle + shift, color=RED, linestyle="--", linewidth=1.0, label=_REFERENCE)
 
 
