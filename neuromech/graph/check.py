@@ -43,7 +43,7 @@ from neuromech.graph.checks.pushes import (
 )
 from neuromech.graph.checks.signals import (
     initial_matches_nothing,
-    initial_of_wrong_unit,
+    initial_outside_bounds,
     measure_of_unrecorded,
     record_matches_nothing,
 )
@@ -110,7 +110,7 @@ RULES: tuple[Rule, ...] = (
     record_matches_nothing,
     measure_of_unrecorded,
     initial_matches_nothing,
-    initial_of_wrong_unit,
+    initial_outside_bounds,
     *START_RULES,
     pendulum_in_the_body,
 )

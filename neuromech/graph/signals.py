@@ -2,12 +2,14 @@
 
 import re
 from collections.abc import Iterable, Mapping
+from dataclasses import replace
 from fnmatch import translate
 from types import MappingProxyType
 
-from neuromech.components.base import Component, Port
+from neuromech.components.base import Component, Port, State
 from neuromech.graph.mechanics import inputs, outputs
 from neuromech.graph.model import Element, ModelGraph
+from neuromech.units import Unit
 
 _INDEXED = re.compile(r"(.+)\[(\*|\d+|\d*:\d*(?::[1-9]\d*)?)\]\.([^.\[\]]+)$")
 _NONE: Mapping[str, int] = MappingProxyType({})
@@ -28,9 +30,21 @@ def signals(graph: ModelGraph) -> dict[str, str]:
     return found
 
 
-def states(graph: ModelGraph) -> dict[str, str]:
-    """Return name → unit to show of every state that `protocol.initial` can set."""
-    return {f"{element.name}.{port.name}": port.unit for element in graph.elements() for port in _states(element)}
+def states(graph: ModelGraph) -> dict[str, Unit]:
+    """Return name → unit, with its bounds, of every state that `protocol.initial` can set."""
+    return {
+        f"{element.name}.{state.name}": _unit(element.spec, state)
+        for element in graph.elements()
+        if isinstance(element.spec, Component)
+        for state in element.spec.states
+    }
+
+
+def _unit(component: Component, state: State) -> Unit:
+    """Return the unit of a state, with the bounds of the parameter that holds its value at time zero."""
+    marks = type(component).model_fields[state.initial].metadata
+    bounds = next(mark for mark in marks if isinstance(mark, Unit))
+    return replace(bounds, name="value", example=state.unit)
 
 
 def sizes(graph: ModelGraph) -> dict[str, int]:

@@ -56,8 +56,8 @@ def initial_matches_nothing(graph: ModelGraph) -> Iterator[Problem]:
             yield graph.document.problem("no-such-state", path, "matches no state", f"'{pattern}'", hint)
 
 
-def initial_of_wrong_unit(graph: ModelGraph) -> Iterator[Problem]:
-    """A value at time zero has the dimension of the states that it sets."""
+def initial_outside_bounds(graph: ModelGraph) -> Iterator[Problem]:
+    """A value at time zero has the dimension of the states that it sets, and is one that they can have."""
     every = _starts(graph)
     for pattern, value in graph.document.experiment.protocol.initial.items():
         path = f"protocol.initial.{pattern}"
@@ -68,20 +68,21 @@ def initial_of_wrong_unit(graph: ModelGraph) -> Iterator[Problem]:
             yield from _unit_problems(graph, path, values, unit)
 
 
-def _starts(graph: ModelGraph) -> dict[str, str]:
-    return states(graph) | (start_units(graph.body) if graph.body else {})
+def _starts(graph: ModelGraph) -> dict[str, Unit]:
+    body = start_units(graph.body) if graph.body else {}
+    return states(graph) | {name: Unit("value", unit) for name, unit in body.items()}
 
 
-def _units(pattern: str, every: dict[str, str], populations: dict[str, int]) -> Iterator[str]:
+def _units(pattern: str, every: dict[str, Unit], populations: dict[str, int]) -> Iterator[Unit]:
     for name in matching(pattern, every, populations):
         element, _, quantity = split(name)
         yield every[f"{element}.{quantity}"]
 
 
-def _unit_problems(graph: ModelGraph, path: str, values: tuple[object, ...], unit: str) -> Iterator[Problem]:
+def _unit_problems(graph: ModelGraph, path: str, values: tuple[object, ...], unit: Unit) -> Iterator[Problem]:
     for value in values:
         try:
-            Unit("value", unit).parse(value)
+            unit.parse(value)
         except PydanticCustomError as error:
             context = error.context or {}
             yield graph.document.problem(error.type, path, error.message(), context.get("got"), context.get("hint"))
