@@ -1,7 +1,7 @@
 """Every signal of a model: what a run can record, and in which unit it is shown."""
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import replace
 from fnmatch import translate
 from types import MappingProxyType
@@ -12,6 +12,7 @@ from neuromech.graph.model import Element, ModelGraph
 from neuromech.units import Unit
 
 _INDEXED = re.compile(r"(.+)\[(\*|\d+|\d*:\d*(?::[1-9]\d*)?)\]\.([^.\[\]]+)$")
+_WILDCARD = re.compile(r"[*?\[]")
 _NONE: Mapping[str, int] = MappingProxyType({})
 
 
@@ -52,7 +53,7 @@ def sizes(graph: ModelGraph) -> dict[str, int]:
     return {element.name: element.size for element in graph.elements("population")}
 
 
-def matching(pattern: str, names: Iterable[str], populations: Mapping[str, int] = _NONE) -> list[str]:
+def matching(pattern: str, names: Collection[str], populations: Mapping[str, int] = _NONE) -> list[str]:
     """Return the names that a pattern matches, in their order; `*` stands for any text, `?` for one character.
 
     Neurons of a population are chosen by index or slice: `pool[17].activity`, `pool[0:100].activity`,
@@ -64,9 +65,10 @@ def matching(pattern: str, names: Iterable[str], populations: Mapping[str, int] 
         populations: number of neurons of each population whose single neurons have no names in `names`.
     """
     indexed = _INDEXED.match(pattern)
+    if indexed is None and not _WILDCARD.search(pattern):
+        return [pattern] if pattern in names else []
     if indexed is None:
-        matches = re.compile(translate(pattern)).match
-        return [name for name in names if matches(name)]
+        return list(filter(re.compile(translate(pattern)).match, names))
     element, index, quantity = indexed.groups()
     matches = re.compile(translate(f"{element}.{quantity}")).match
     found = list[str]()

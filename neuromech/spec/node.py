@@ -3,6 +3,7 @@
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
+from functools import lru_cache
 from typing import Literal
 
 from neuromech.errors import Mark
@@ -104,9 +105,11 @@ def is_empty(node: Node) -> bool:
 
 def scalar_value(node: ScalarNode) -> str | int | float | bool | None:
     """Return the value of a scalar by the core schema of YAML 1.2."""
-    text = node.text
-    if node.quoted:
-        return text
+    return node.text if node.quoted else _plain_value(node.text)
+
+
+@lru_cache(maxsize=4096)
+def _plain_value(text: str) -> str | int | float | bool | None:
     if text in _NULL:
         return None
     if text in _BOOLEANS:
@@ -146,13 +149,19 @@ def join(path: str, key: str | int) -> str:
 
 def walk(node: Node, path: str = "") -> Iterator[tuple[str, Node]]:
     """Yield every node below and including this one with its dotted path, in authored order."""
-    yield path, node
+    waiting = [(path, node)]
+    while waiting:
+        path, node = waiting.pop()
+        yield path, node
+        if not isinstance(node, ScalarNode):
+            waiting += [(join(path, key), child) for key, child in reversed(children(node))]
+
+
+def children(node: Node) -> list[tuple[str | int, Node]]:
+    """Return what stands in a map or a list, with its key or position, in authored order; nothing for a scalar."""
     if isinstance(node, MapNode):
-        for key, entry in node.entries.items():
-            yield from walk(entry.node, join(path, key))
-    elif isinstance(node, ListNode):
-        for index, item in enumerate(node.items):
-            yield from walk(item, join(path, index))
+        return [(key, entry.node) for key, entry in node.entries.items()]
+    return list(enumerate(node.items)) if isinstance(node, ListNode) else []
 
 
 def size_within(node: Node, most: int, deepest: int) -> int | None:

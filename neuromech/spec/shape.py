@@ -11,7 +11,7 @@ from pydantic import BaseModel
 from neuromech.components.base import Family
 from neuromech.components.catalogue import Catalogue
 from neuromech.spec.fields import KindFromKey, OfCatalogue
-from neuromech.spec.node import MapNode, Node, ScalarNode
+from neuromech.spec.node import MapNode, Node, ScalarNode, children, join
 from neuromech.units import Unit
 
 
@@ -57,6 +57,7 @@ class Table:
     family: Family
     bare: str
 
+    @lru_cache(maxsize=256)  # noqa: B019 (a table is a value of the vocabulary, of which there are few)
     def inner(self, model: type[BaseModel]) -> Any:
         """Return the annotation of what stands under the kind of a class."""
         return dict[str, dict[str, Annotated[model, _Bare(self.bare)]]]  # type: ignore[valid-type]
@@ -79,6 +80,7 @@ class Leaf:
 Shape = Fields | Names | Items | Choice | Table | Leaf
 
 
+@lru_cache(maxsize=4096)
 def shape_of(annotation: Any, catalogue: Catalogue) -> Shape:
     """Return what an annotation of the model allows; `| None` is looked through."""
     base, marks = _peel(annotation)
@@ -123,7 +125,13 @@ def chosen(shape: Choice, node: Node | None) -> type[BaseModel] | None:
     kind = node.get("kind") if isinstance(node, MapNode) else None
     if not isinstance(kind, ScalarNode):
         return None
-    return next((model for model in shape.models if kind_word(model) == kind.text), None)
+    return _by_word(shape.models).get(kind.text)
+
+
+@lru_cache(maxsize=256)
+def _by_word(models: tuple[type[BaseModel], ...]) -> dict[str, type[BaseModel]]:
+    """Return the first class that each word chooses."""
+    return {kind_word(model): model for model in reversed(models)}
 
 
 def kind_word(model: type[BaseModel]) -> str:
@@ -181,20 +189,13 @@ def model_of(annotation: Any, node: Node | None, catalogue: Catalogue) -> type[B
 
 def typed(node: Node, annotation: Any, catalogue: Catalogue, path: str = "") -> Iterator[tuple[str, Node, Any]]:
     """Yield (path, node, annotation) for all of a tree that the model knows, in authored order."""
-    shape = shape_of(annotation, catalogue)
-    yield path, node, _narrowed(annotation, shape, node)
-    for key, child in _children(node):
-        inner = _inner(shape, key, node, catalogue)
-        if inner is not None:
-            yield from typed(child, inner, catalogue, f"{path}.{key}" if path else str(key))
-
-
-def _children(node: Node) -> Iterator[tuple[str | int, Node]]:
-    if isinstance(node, MapNode):
-        for key, entry in node.entries.items():
-            yield key, entry.node
-    elif not isinstance(node, ScalarNode):
-        yield from enumerate(node.items)
+    waiting = [(path, node, annotation)]
+    while waiting:
+        path, node, annotation = waiting.pop()
+        shape = shape_of(annotation, catalogue)
+        yield path, node, _narrowed(annotation, shape, node)
+        found = ((key, child, _inner(shape, key, node, catalogue)) for key, child in reversed(children(node)))
+        waiting += [(join(path, key), child, inner) for key, child, inner in found if inner is not None]
 
 
 @lru_cache(maxsize=256)

@@ -29,10 +29,12 @@ def references(node: Node) -> Iterator[str]:
     """Yield every name that is asked for anywhere in a tree, in keys too."""
     for _, found in walk(node):
         if isinstance(found, ScalarNode):
-            yield from REFERENCE.findall(found.text)
+            if "${" in found.text:
+                yield from REFERENCE.findall(found.text)
         elif isinstance(found, MapNode):
             for key in found.entries:
-                yield from REFERENCE.findall(key)
+                if "${" in key:
+                    yield from REFERENCE.findall(key)
 
 
 def fill_arguments(node: Node, arguments: Mapping[str, Node], problems: list[Problem], path: str = "") -> Node:

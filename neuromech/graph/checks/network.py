@@ -1,6 +1,7 @@
 """Rules about what signals reach: motoneurons are driven and pull, sensors are heard."""
 
 from collections.abc import Iterator
+from typing import Final
 
 import networkx as nx
 
@@ -9,14 +10,18 @@ from neuromech.errors import Problem
 from neuromech.graph.model import Element, ModelGraph, NodeFamily
 from neuromech.graph.signals import matching, signals
 
+_BEFORE: Final = 0
+"""No name: the node before all sources."""
+
 
 def unreachable_motoneuron(graph: ModelGraph) -> Iterator[Problem]:
     """Synapses lead to each motoneuron from a drive, a sensor, or a neuron that is active by itself."""
     links = nx.DiGraph()
     links.add_nodes_from(element.name for element in graph.elements())
     links.add_edges_from((sender, receiver) for sender, receiver, _ in graph.connections("synapse", "projection"))
-    sources = [element.name for element in graph.elements() if _is_source(element)]
-    reached = set(sources).union(*(nx.descendants(links, source) for source in sources))
+    # From one place before all sources the network is gone through once.
+    links.add_edges_from((_BEFORE, element.name) for element in graph.elements() if _is_source(element))
+    reached = nx.descendants(links, _BEFORE) if _BEFORE in links else set()
     for element in _motoneurons(graph, "neuron", "population"):
         if element.name not in reached:
             message = "no path of synapses leads to this motoneuron from a drive, a sensor or a rhythm generator"

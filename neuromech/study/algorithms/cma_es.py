@@ -3,6 +3,7 @@
 The library's update of a full matrix is active: it also learns from the worse half. It keeps bounds by drawing anew,
 and by cutting what is still outside after 100 draws. It sees ranks instead of scores, which is all that CMA-ES uses of
 them; so stages and failures need no numbers. Equal scores have equal ranks, and all failed candidates are the last.
+Only where it restarts does it look at the scores themselves, to see that they have become the same (`TolFun`).
 
 The separable kind keeps the diagonal of the covariance matrix alone. It has n numbers to learn instead of n² / 2 and
 learns them (n + 2) / 3 times as fast, but cannot see that parameters depend on each other. Its update is not active.
@@ -12,6 +13,7 @@ growing population: Auger & Hansen 2005, 10.1109/CEC.2005.1554902.
 """
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from importlib import import_module
 from typing import Annotated, Any, ClassVar, Final, Literal
 
@@ -27,6 +29,34 @@ from neuromech.units import DIMENSIONLESS, Quantity, quantity
 _CHANGING: Final = ("_g", "_mean", "_sigma", "_p_sigma", "_pc", "_funhist_values")
 _FULL: Final = "_c_1d"
 _DIAGONAL: Final = "_C"
+_SAME: Final = 1e-12
+"""Scores of a stage that differ less are the same."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Plateau:
+    """Lowest and highest score of the latest generations, as long as nothing failed and all were in one stage."""
+
+    stage: int | None = None
+    ends: tuple[tuple[float, float], ...] = ()
+
+    def after(self, scores: tuple[Score | None, ...], lookback: int) -> "_Plateau":
+        """Return what it is after another generation."""
+        values = [score.value for score in scores if score is not None]
+        stages = {None if score is None else score.stage for score in scores}
+        if None in stages or len(stages) > 1:
+            return _Plateau()
+        (stage,) = stages
+        before = self.ends if stage == self.stage else ()
+        return _Plateau(stage, (*before, (min(values), max(values)))[-lookback:])
+
+    def is_flat(self, lookback: int) -> bool:
+        """Return whether so many generations had the same scores."""
+        lowest, highest = (
+            min((low for low, _ in self.ends), default=0.0),
+            max((high for _, high in self.ends), default=0.0),
+        )
+        return len(self.ends) >= lookback and highest - lowest < _SAME
 
 
 class CmaEsSettings(Settings):
@@ -46,6 +76,7 @@ class CmaEs(Generational):
 
     settings_type: ClassVar[type[Settings]] = CmaEsSettings
     settings: CmaEsSettings
+    _plateau: _Plateau
 
     def first(self, random: Generator) -> Floats:
         """Return the first generation, drawn around the start, or around the middle where there is none.
@@ -66,10 +97,14 @@ class CmaEs(Generational):
             return self._drawn(random)
         optimizer = self._optimizer()
         optimizer.tell(list(zip(points, map(float, ranks(scores)), strict=True)))
-        if not optimizer.should_stop():
-            self._keep(optimizer)
-        elif self.settings.restarts == "ipop":
+        restarts = self.settings.restarts == "ipop"
+        lookback = optimizer.__getstate__()["_funhist_term"]
+        self._plateau = self._plateau.after(scores, lookback)
+        ended = optimizer.should_stop() or (restarts and self._plateau.is_flat(lookback))
+        if ended and restarts:
             return self._begin(random.random(self.dimension), 2 * len(points), random)
+        if not ended:
+            self._keep(optimizer)
         return self._drawn(random)
 
     def centers(self) -> Floats:
@@ -79,17 +114,20 @@ class CmaEs(Generational):
 
     def memory(self) -> State:
         """Return what the library's optimiser knows, without what follows from its settings."""
-        return dict(self._known)
+        return self._known | {"plateau": [self._plateau.stage, [list(pair) for pair in self._plateau.ends]]}
 
     def remember(self, memory: Mapping[str, Any]) -> None:
         """Take what the library's optimiser knows."""
-        self._known = dict(memory)
+        self._known = {name: value for name, value in memory.items() if name != "plateau"}
+        stage, ends = memory.get("plateau", (None, ()))
+        self._plateau = _Plateau(stage, tuple((low, high) for low, high in ends))
 
     def _begin(self, mean: Floats, population: int | None, random: Generator) -> Floats:
         optimizer = self._new(mean, population)
         # The library allocates its history without values; what memory held by chance must not be stored.
         optimizer.__dict__["_funhist_values"][:] = 0.0
         self._keep(optimizer)
+        self._plateau = _Plateau()
         return self._drawn(random)
 
     @property

@@ -101,6 +101,40 @@ def test_restarts_double_the_population_where_the_search_has_come_to_an_end():
     assert np.array_equal(resumed.ask(), one.ask())
 
 
+def hollows(point):
+    """Return a score with a hollow at each place of a grid; the deepest is off the middle."""
+    x = 10.0 * (point - 0.62)
+    return Score(0, -float(np.sum(x**2 - 10.0 * np.cos(2.0 * np.pi * x) + 10.0)))
+
+
+def generations_before_a_restart(judge):
+    """Return how many generations go by before the population grows."""
+    one = search(4, population=8, restarts="ipop")
+    for generation in range(400):
+        points = one.ask()
+        if len(points) > 8:
+            return generation
+        one.tell([judge(point) for point in points])
+    return 400
+
+
+def test_a_search_in_a_hollow_restarts_where_the_librarys_own_would():
+    theirs = cmaes.CMA(np.full(4, 0.5), 0.3, np.tile([0.0, 1.0], (4, 1)), seed=1, population_size=8)
+    while not theirs.should_stop():
+        points = [theirs.ask() for _ in range(8)]
+        theirs.tell([(point, -hollows(point).value) for point in points])
+    assert generations_before_a_restart(hollows) == pytest.approx(theirs.generation, rel=0.2)
+
+
+def test_a_plateau_ends_with_a_failure_or_another_stage():
+    flat = search(2, population=5, restarts="ipop")
+    for generation in range(60):
+        points = flat.ask()
+        assert len(points) == 5
+        scores = [Score(generation // 5 % 2, 1e-3 * index) for index in range(5)]
+        flat.tell([None, *scores[1:]] if generation % 7 == 0 else scores)
+
+
 def test_a_flat_landscape_does_not_restart_where_that_is_not_asked_for():
     one = search(2, population=5)
     go(one, lambda _point: Score(0, 0.0), 100)
