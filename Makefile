@@ -25,7 +25,9 @@ check: $(VENV)/.developed  ## style, types, layers
 	$(BIN)/python -m pytest --quiet tests/test_layers.py
 
 verify: $(VENV)/.developed  ## the slow proofs, and every claim of the shipped documents
+	$(BIN)/python -m pip install --quiet --group opensim
 	$(BIN)/python -m pytest -m slow
+	$(BIN)/python -m pytest tests/unit/components/test_muscle_against_opensim.py
 	$(BIN)/neuromech verify specs
 
 gallery: $(VENV)/.developed  ## draw the pictures of docs/gallery again
