@@ -6,7 +6,7 @@ first two differ in is mostly curves. `pip install --group opensim` brings OpenS
 """
 
 from dataclasses import dataclass
-from math import cos, exp, log, pi
+from math import exp, log, pi
 
 import numba
 import numpy as np
