@@ -9,6 +9,7 @@ from matplotlib.figure import Figure
 
 from neuromech.graph.model import BodyModel
 from neuromech.report.activity import activity_figure
+from neuromech.report.correlations import correlation_figure
 from neuromech.report.cycle import cycle_figure
 from neuromech.report.feet import foot_path_figure
 from neuromech.report.footfall import flexor_contact_figure, footfall_figure, load_figure
@@ -20,6 +21,7 @@ from neuromech.report.replay import NO_BODY, has_body
 from neuromech.report.speed import speed_figure
 from neuromech.report.stills import stills_figure
 from neuromech.report.trunk import inclination_figure
+from neuromech.report.vertical_force import vertical_force_figure
 from neuromech.simulate.recording import Recording
 
 FIGURES: Mapping[str, Callable[[Recording], Figure]] = MappingProxyType(
@@ -32,6 +34,8 @@ FIGURES: Mapping[str, Callable[[Recording], Figure]] = MappingProxyType(
         "foot_path": foot_path_figure,
         "footfall": footfall_figure,
         "leg_loads": load_figure,
+        "vertical_force": vertical_force_figure,
+        "correlations": correlation_figure,
         "flexor_contact": flexor_contact_figure,
         "inclination": inclination_figure,
         "speed": speed_figure,

@@ -40,11 +40,12 @@ def references(recording: Recording) -> dict[str, Reference]:
 
     A reference has an angle where its column's name ends with the unit of one, as `hip_deg` does.
     """
-    document = YAML(typ="safe").load(recording.provenance.specification) or {}
-    return dict(found for claim in _claims(document) for found in _of(claim))
+    return dict(found for claim in compared_measures(recording) for found in _of(claim))
 
 
-def _claims(document: dict[str, Any]) -> Iterator[Measure]:
+def compared_measures(recording: Recording) -> Iterator[Measure]:
+    """Yield the measures with a curve in the claims of a recording's document."""
+    document: dict[str, Any] = YAML(typ="safe").load(recording.provenance.specification) or {}
     for claim in (document.get("claims") or {}).values():
         if claim is not None and claim["measure"]["kind"] == "curve_correlation":
             yield Measure.model_validate(claim["measure"])

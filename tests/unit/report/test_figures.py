@@ -27,7 +27,8 @@ def test_figures_are_written_for_the_signals_that_exist(cat, tmp_path):
         "foot_path",
     }
     assert drawn.reasons() == {
-        "no foot touches the ground": ["footfall", "leg_loads", "flexor_contact"],
+        "no foot touches the ground": ["footfall", "leg_loads", "vertical_force", "flexor_contact"],
+        "no claim compares a signal with a curve": ["correlations"],
         "roll and pitch of the root are not recorded": ["inclination"],
         "trunk does not move": ["speed"],
         "the protocol disturbs nothing, and no time was given": ["recovery"],
