@@ -21,6 +21,7 @@ from neuromech.study.progress import Report, Tally
 from neuromech.study.register import Register
 from neuromech.study.stopping import thresholds
 from neuromech.study.storage import Boundary, StoredStudy
+from neuromech.study.tasks import Packed
 from neuromech.study.writer import Writer
 
 Ending = Literal["complete", "stopped"]
@@ -78,10 +79,11 @@ class Search:
             NeuromechError, ImportError, OSError: what the task raised, where it is not about a single candidate.
         """
         self._tally.start()
+        packed = Packed.of(task)
         with Writer(self._stored, self._plan.space) as writer:
 
             def evaluate(jobs: Sequence[Job]) -> bool:
-                self._evaluate(jobs, executor, task, stop, writer)
+                self._evaluate(jobs, executor, packed, stop, writer)
                 return all(map(self._register.is_complete, jobs))
 
             while self._at.evaluations < self._plan.evaluations:
@@ -133,7 +135,7 @@ class Search:
             ]
         )
 
-    def _evaluate(self, jobs: Sequence[Job], executor: Executor, task: Task, stop: Stop, writer: Writer) -> None:
+    def _evaluate(self, jobs: Sequence[Job], executor: Executor, task: Packed, stop: Stop, writer: Writer) -> None:
         """Carry out the jobs that are not stored yet."""
         missing = [job for job in jobs if not self._register.is_complete(job)]
         if not missing or stop():
@@ -141,6 +143,7 @@ class Search:
         self._tally.expect(missing)
         writer.begin(missing)
         self._register.begin(missing)
+        done: Done[Job, Evaluation]
         for done in executor.run(task, missing, stop):
             evaluation = done.result or _crashed(done)
             self._register.finish(evaluation)

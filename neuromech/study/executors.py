@@ -53,18 +53,20 @@ class Executor(ABC):
     def prepare(self, function: Callable[[], None]) -> None:
         """Call a function once on each machine, before jobs run there; whatever it raises passes on."""
 
-    def run(self, task: Callable[[Job], Result], jobs: Iterable[Job], stop: Stop) -> Iterator[Done[Job, Result]]:
+    def run(
+        self, task: Callable[[Job], Result] | Packed, jobs: Iterable[Job], stop: Stop
+    ) -> Iterator[Done[Job, Result]]:
         """Yield the jobs as they are done, in any order.
 
         Args:
-            task: what to do with each job; it and the jobs can be pickled.
+            task: what to do with each job; it and the jobs can be pickled. One that is used again is packed once.
             jobs: handed out in this order; each is taken when it can begin.
             stop: when it turns true, no other job begins, and those under way are yielded when they are done.
 
         Raises:
             NeuromechError, ImportError, OSError: what the task raised, where it is not about a single job.
         """
-        packed = Packed.of(task)
+        packed = task if isinstance(task, Packed) else Packed.of(task)
         waiting: Iterator[tuple[Job, int]] = ((job, 0) for job in jobs)
         running: dict[Future[Any], _Try] = {}
         self._fill(running, waiting, packed, stop)

@@ -4,7 +4,7 @@ import pickle
 import platform
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cache, lru_cache
 from importlib.metadata import version
 from typing import Any, Self
 
@@ -48,5 +48,6 @@ def _unpacked(packed: Packed) -> Callable[[Any], Any]:
     return found
 
 
+@cache
 def _versions() -> tuple[str, ...]:
     return tuple(f"{package} {version(package)}" for package in PACKAGES)

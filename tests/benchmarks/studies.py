@@ -12,6 +12,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
+import psutil
 from distributed import LocalCluster
 
 from neuromech.study.dask_executor import DaskExecutor
@@ -25,7 +26,9 @@ from neuromech.study.storage import StoredStudy
 
 SPEC = Path(__file__).parents[2] / "specs" / "cat" / "suspended_tuning.yaml"
 ENGINES = ("pybullet", "mujoco")
-REPETITIONS = 3
+REPETITIONS = 5
+MOST = 12
+UNDISTURBED = 0.05
 EVALUATIONS = 48
 JOBS = 40
 JOB_SECONDS = 1.0
@@ -60,6 +63,26 @@ def own_jobs(plan: Plan, count: int) -> list[Job]:
     return [Job(n, 0, n, own, plan.scenarios.seeds(0)) for n in range(count)]
 
 
+class Others:
+    """Share of the processors that other programs use between its making and `share`."""
+
+    def __init__(self) -> None:
+        self._started = time.perf_counter()
+        self._busy, self._own = self._used()
+
+    def share(self) -> float:
+        busy, own = self._used()
+        seconds = (time.perf_counter() - self._started) * psutil.cpu_count()
+        return (busy - self._busy - (own - self._own)) / seconds
+
+    def _used(self) -> tuple[float, float]:
+        """Return busy seconds of all processors, and those of this process and what it has started."""
+        every = psutil.cpu_times()
+        mine = [psutil.Process(), *psutil.Process().children(recursive=True)]
+        own = sum(one.cpu_times().user + one.cpu_times().system for one in mine)
+        return sum(every) - every.idle - every.iowait - every.guest - every.guest_nice, own
+
+
 def searched(evaluator: Evaluator, executor: Executor) -> float:
     """Return the seconds that a search takes, without starting processes and loading code."""
     plan = Plan.of(evaluator.document)
@@ -73,23 +96,33 @@ def searched(evaluator: Evaluator, executor: Executor) -> float:
 
 
 def cat(costs: Costs) -> None:
-    """Measure one and two workers in turn, in both engines."""
+    """Measure one and two workers in turn, in both engines, until that was undisturbed often enough."""
     for engine in ENGINES:
         evaluator = Evaluator(SPEC, [f"study.evaluations={EVALUATIONS}"], engine=engine)
         evaluator.prepare()
-        rates: dict[int, list[float]] = {1: [], 2: []}
-        shares = []
+        working, before = 0.0, costs.seconds
+        pairs: list[tuple[float, float, float]] = []
         with ProcessExecutor(1) as one, ProcessExecutor(2) as two:
-            for _ in range(REPETITIONS):
-                for executor in (one, two):
-                    before = costs.seconds
-                    seconds = searched(evaluator, executor)
-                    rates[executor.workers].append(EVALUATIONS * 3600 / seconds)
-                    shares.append((costs.seconds - before) / (seconds * executor.workers))
-        ratios = [two / one for one, two in zip(rates[1], rates[2], strict=True)]
-        words = ", ".join(f"{workers} workers {statistics.median(rate):.0f}/h" for workers, rate in rates.items())
-        spread = f"{min(ratios):.2f} – {max(ratios):.2f}"
-        say(f"{engine}: {words}, ratio {statistics.median(ratios):.2f} ({spread}), storage {max(shares):.2%} at most")
+            while len(pairs) < MOST and sum(others < UNDISTURBED for _, _, others in pairs) < REPETITIONS:
+                others = Others()
+                alone, together = (searched(evaluator, executor) for executor in (one, two))
+                pairs.append((alone, together, others.share()))
+                working += alone + 2 * together
+        storing = costs.seconds - before
+        calm = [pair for pair in pairs if pair[2] < UNDISTURBED]
+        say(f"{engine}: {len(calm)} of {len(pairs)} undisturbed, storage {storing / working:.2%}")
+        for words, found in (("undisturbed", calm), ("all", pairs)):
+            if found:
+                say(f"  {words}: {rates(found)}")
+
+
+def rates(pairs: list[tuple[float, float, float]]) -> str:
+    """Return the evaluations per hour of one and two workers, and their ratios."""
+    hourly = [EVALUATIONS * 3600 / statistics.median(pair[place] for pair in pairs) for place in (0, 1)]
+    ratios = [alone / together for alone, together, _ in pairs]
+    spread = f"{statistics.median(ratios):.2f} ({min(ratios):.2f} – {max(ratios):.2f})"
+    others = f"{statistics.median(pair[2] for pair in pairs):.1%}"
+    return f"1 worker {hourly[0]:.0f}/h, 2 workers {hourly[1]:.0f}/h, ratio {spread}, other programs {others}"
 
 
 def threads() -> None:

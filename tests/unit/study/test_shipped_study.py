@@ -1,5 +1,6 @@
-"""What the shipped study of the suspended cat found keeps its claims, and the study judges it as it did."""
+"""Shipped studies can be begun; what that of the suspended cat found keeps its claims, and is judged as it was."""
 
+import re
 from pathlib import Path
 
 import pytest
@@ -7,8 +8,20 @@ import pytest
 from neuromech.pipeline import load_document
 from neuromech.study.evaluate import Evaluator
 from neuromech.study.evaluation import Job
+from neuromech.study.plan import Plan
 
-CAT = Path(__file__).parents[3] / "specs" / "cat"
+SPECS = Path(__file__).parents[3] / "specs"
+CAT = SPECS / "cat"
+STUDIES = [
+    file for file in sorted(SPECS.rglob("*.yaml")) if re.search("^study:", file.read_text("utf-8"), re.MULTILINE)
+]
+
+
+@pytest.mark.parametrize("file", STUDIES, ids=lambda file: file.stem)
+def test_every_shipped_study_can_be_begun(file: Path):
+    evaluator = Evaluator(file)
+    assert evaluator.space.dimensions
+    assert len(Plan.of(evaluator.document).algorithm().ask()) > 1
 
 
 @pytest.mark.slow
