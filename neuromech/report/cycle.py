@@ -1,4 +1,4 @@
-"""Joint angles over one cycle, mean and standard deviation over cycles, as in Habu 2020 Fig. 3-5."""
+"""Angles, torques and activations over a cycle: mean and standard deviation over cycles, as in Habu 2020 Fig. 3-5."""
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -6,6 +6,7 @@ from matplotlib.figure import Figure
 
 from neuromech.analyse.contacts import Footfalls
 from neuromech.analyse.cycles import Cycles
+from neuromech.report.joints import joint_angles
 from neuromech.report.layout import BLUE, RED, NotDrawableError, axis_label, by_scope, grid, rhythm_of, title, trace
 from neuromech.report.references import Reference, references
 from neuromech.report.steps import feet, last_cycles, strides_of
@@ -26,9 +27,30 @@ def cycle_figure(recording: Recording) -> Figure:
     Raises:
         NotDrawableError: no joint angle was recorded, or none is rhythmic.
     """
-    scopes = by_scope(recording, "angle")
+    return _over_cycle(recording, joint_angles(recording), "no joint angle is recorded")
+
+
+def torque_figure(recording: Recording) -> Figure:
+    """Return the torques at the joints of each leg over its cycle, as `cycle_figure` (Dzeladini 2013 Fig. 3.4).
+
+    Raises:
+        NotDrawableError: no torque was recorded, or no leg moves rhythmically.
+    """
+    return _over_cycle(recording, by_scope(recording, "torque"), "no joint torque is recorded")
+
+
+def activation_figure(recording: Recording) -> Figure:
+    """Return the activations of each leg's muscles over its cycle, as `cycle_figure` (Dzeladini 2013 Fig. 3.5).
+
+    Raises:
+        NotDrawableError: no activation was recorded, or no leg moves rhythmically.
+    """
+    return _over_cycle(recording, by_scope(recording, "activation"), "no activation of a muscle is recorded")
+
+
+def _over_cycle(recording: Recording, scopes: dict[str, list[str]], lacking: str) -> Figure:
     if not scopes:
-        raise NotDrawableError("no joint angle is recorded")
+        raise NotDrawableError(lacking)
     contacts = _contacts(recording)
     found = {scope: _cycles(recording, scope, contacts.get(scope)) for scope in scopes}
     legs = {scope: cycles for scope, cycles in found.items() if cycles is not None}
@@ -36,7 +58,7 @@ def cycle_figure(recording: Recording) -> Figure:
         raise NotDrawableError("no leg moves rhythmically")
     rows = max(len(scopes[scope]) for scope in legs)
     compared = references(recording)
-    figure, axes = grid(rows, len(legs), 2.1 if len(legs) > 1 else 4.0, 1.5, sharex=True)
+    figure, axes = grid(rows, len(legs), 2.1 if len(legs) > 2 else 3.2 if len(legs) > 1 else 4.0, 1.5, sharex=True)
     for column, (scope, (cycles, start)) in enumerate(legs.items()):
         for row in range(rows):
             if row < len(scopes[scope]):
@@ -72,15 +94,15 @@ def _cycles(recording: Recording, scope: str, foot: Footfalls | None) -> tuple[C
 
 
 def _panel(axes: Axes, recording: Recording, name: str, cycles: Cycles) -> None:
-    angle = trace(recording, name)
-    curves = cycles.normalised(angle.time, angle.values)
+    drawn = trace(recording, name)
+    curves = cycles.normalised(drawn.time, drawn.values)
     mean, deviation = curves.mean(axis=0), curves.std(axis=0)
     percent = np.linspace(0.0, 100.0, curves.shape[1])
     axes.fill_between(percent, mean - deviation, mean + deviation, color=BLUE, alpha=0.25, linewidth=0.0)
     axes.plot(percent, mean, color=BLUE)
     axes.set_xlim(0.0, 100.0)
     axes.set_xticks([0, 25, 50, 75, 100])
-    axes.set_ylabel(axis_label(angle.element, angle.unit))
+    axes.set_ylabel(axis_label(drawn.element, drawn.unit))
     axes.margins(y=0.15)
 
 

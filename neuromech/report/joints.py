@@ -1,7 +1,6 @@
 """Joint angles over time, and their phase planes as in Habu 2020 Fig. 3-3."""
 
 from collections import Counter
-from collections.abc import Callable
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -25,6 +24,7 @@ from neuromech.report.layout import (
     title,
     trace,
 )
+from neuromech.report.protocol import sensor_names
 from neuromech.simulate.recording import Recording
 from neuromech.spec.measure import Measure
 from neuromech.units import Quantity
@@ -36,6 +36,16 @@ RARE = 0.5
 """Percentage of samples on either side that may leave the frame of a phase plane."""
 
 
+def joint_angles(recording: Recording) -> dict[str, list[str]]:
+    """Return {scope: angles of joints}; what sensors see as an angle is left out."""
+    sensors = sensor_names(recording)
+    found = {
+        scope: [name for name in names if name.rpartition(".")[0] not in sensors]
+        for scope, names in by_scope(recording, "angle").items()
+    }
+    return {scope: names for scope, names in found.items() if names}
+
+
 def joint_angle_figure(recording: Recording) -> Figure:
     """Return joint angles, one row per leg: the whole run, and the last few cycles.
 
@@ -44,7 +54,7 @@ def joint_angle_figure(recording: Recording) -> Figure:
     Raises:
         NotDrawableError: no joint angle was recorded.
     """
-    scopes = by_scope(recording, "angle")
+    scopes = joint_angles(recording)
     if not scopes:
         raise NotDrawableError("no joint angle is recorded")
     options = {"sharex": "col", "sharey": "row", "width_ratios": [2.2, 1.0]}
@@ -100,14 +110,8 @@ def phase_plane_figure(recording: Recording) -> Figure:
 def joints_with_velocity(recording: Recording) -> list[str]:
     """Return the joints that were recorded with angle and velocity, leg after leg."""
     velocities = set(recording.match("*.velocity"))
-    joints = (name.removesuffix(".angle") for name in recording.match("*.angle"))
-    return sorted((joint for joint in joints if f"{joint}.velocity" in velocities), key=_scope_order(recording))
-
-
-def _scope_order(recording: Recording) -> Callable[[str], int]:
-    """Return the key that puts the joints of one leg side by side and keeps the recorded order otherwise."""
-    scopes = list(by_scope(recording, "angle"))
-    return lambda joint: scopes.index(joint.rpartition(".")[0])
+    joints = (name.removesuffix(".angle") for names in joint_angles(recording).values() for name in names)
+    return [joint for joint in joints if f"{joint}.velocity" in velocities]
 
 
 def _path(axes: Axes, angle: Trace, velocity: Trace, normalize: Normalize) -> None:

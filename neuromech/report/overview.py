@@ -10,16 +10,19 @@ from matplotlib.figure import Figure
 from neuromech.graph.model import BodyModel
 from neuromech.report.activity import activity_figure
 from neuromech.report.correlations import correlation_figure
-from neuromech.report.cycle import cycle_figure
+from neuromech.report.cycle import activation_figure, cycle_figure, torque_figure
 from neuromech.report.feet import foot_path_figure
 from neuromech.report.footfall import flexor_contact_figure, footfall_figure, load_figure
 from neuromech.report.joints import joint_angle_figure, phase_plane_figure
 from neuromech.report.layout import FileFormat, NotDrawableError, save, style
+from neuromech.report.lever_arms import lever_arm_figure
 from neuromech.report.muscles import muscle_force_figure
+from neuromech.report.pushes import push_series_figure
 from neuromech.report.recovery import recovery_figure
 from neuromech.report.replay import NO_BODY, has_body
 from neuromech.report.speed import speed_figure
 from neuromech.report.stills import stills_figure
+from neuromech.report.terrain import terrain_figure
 from neuromech.report.trunk import inclination_figure
 from neuromech.report.vertical_force import vertical_force_figure
 from neuromech.simulate.recording import Recording
@@ -29,6 +32,8 @@ FIGURES: Mapping[str, Callable[[Recording], Figure]] = MappingProxyType(
         "activity": activity_figure,
         "joint_angles": joint_angle_figure,
         "cycle": cycle_figure,
+        "cycle_torques": torque_figure,
+        "cycle_activations": activation_figure,
         "phase_plane": phase_plane_figure,
         "muscle_forces": muscle_force_figure,
         "foot_path": foot_path_figure,
@@ -39,6 +44,9 @@ FIGURES: Mapping[str, Callable[[Recording], Figure]] = MappingProxyType(
         "flexor_contact": flexor_contact_figure,
         "inclination": inclination_figure,
         "speed": speed_figure,
+        "push_series": push_series_figure,
+        "terrain": terrain_figure,
+        "lever_arms": lever_arm_figure,
     }
 )
 """File name without suffix -> what draws it."""

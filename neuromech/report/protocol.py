@@ -1,6 +1,6 @@
-"""What the protocol of a recorded document says: how parameters moved, and when something happened."""
+"""What a recorded document says: how parameters moved, when something happened, which sensors there are."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Any
@@ -12,6 +12,7 @@ from neuromech.analyse.windows import Array
 from neuromech.compiler.timeline import course
 from neuromech.simulate.recording import Recording
 from neuromech.spec.model import Protocol
+from neuromech.spec.pushes import PushSeries
 from neuromech.units import quantity
 
 _PARTS = ("ramps", "events", "pushes", "push_series")
@@ -63,6 +64,22 @@ def push_names(recording: Recording) -> set[str]:
     """Return the names of the pushes of the recorded document."""
     protocol = _protocol(recording)
     return {*protocol.pushes, *protocol.push_series}
+
+
+def push_series(recording: Recording) -> dict[str, PushSeries]:
+    """Return the series of pushes of the recorded document, by name."""
+    return dict(_protocol(recording).push_series)
+
+
+def sensor_names(recording: Recording) -> set[str]:
+    """Return the names of the sensors of the recorded document."""
+    return set(_sensors(YAML(typ="safe").load(recording.provenance.specification) or _NOTHING, ""))
+
+
+def _sensors(values: Mapping[str, Any], scope: str) -> Iterator[str]:
+    yield from (f"{scope}{name}" for name in values.get("sensors") or ())
+    for name, instance in (values.get("instances") or {}).items():
+        yield from _sensors(instance, f"{scope}{name}.")
 
 
 def _first_force(recording: Recording, push: str, start: float) -> float:

@@ -29,10 +29,14 @@ def test_figures_are_written_for_the_signals_that_exist(cat, tmp_path):
     assert drawn.reasons() == {
         "no foot touches the ground": ["footfall", "leg_loads", "vertical_force", "flexor_contact"],
         "no claim compares a signal with a curve": ["correlations"],
+        "no joint torque is recorded": ["cycle_torques"],
+        "no activation of a muscle is recorded": ["cycle_activations"],
         "roll and pitch of the root are not recorded": ["inclination"],
         "trunk does not move": ["speed"],
         "the protocol disturbs nothing, and no time was given": ["recovery"],
-        "the body in the recording cannot be used: body has no segment": ["stills"],
+        "the body in the recording cannot be used: body has no segment": ["terrain", "stills"],
+        "the protocol has no series of pushes": ["push_series"],
+        "no muscle has lever arms": ["lever_arms"],
     }
     for path in (tmp_path / "air").iterdir():
         assert path.read_bytes().startswith(b"\x89PNG")
