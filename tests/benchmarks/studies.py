@@ -1,13 +1,13 @@
 """What a study costs: evaluations per hour of the suspended cat, its storage, and Dask.
 
-python tests/benchmarks/studies.py [cat] [dask] [threads]
+python tests/benchmarks/studies.py [pybullet] [mujoco] [threads] [dask]
 """
 
 import statistics
 import sys
 import tempfile
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
@@ -27,9 +27,9 @@ from neuromech.study.storage import StoredStudy
 SPEC = Path(__file__).parents[2] / "specs" / "cat" / "suspended_tuning.yaml"
 ENGINES = ("pybullet", "mujoco")
 REPETITIONS = 5
-MOST = 12
+MOST = 10
 UNDISTURBED = 0.05
-EVALUATIONS = 48
+EVALUATIONS = 36
 JOBS = 40
 JOB_SECONDS = 1.0
 
@@ -95,9 +95,9 @@ def searched(evaluator: Evaluator, executor: Executor) -> float:
         return time.perf_counter() - started
 
 
-def cat(costs: Costs) -> None:
-    """Measure one and two workers in turn, in both engines, until that was undisturbed often enough."""
-    for engine in ENGINES:
+def cat(costs: Costs, engines: Sequence[str]) -> None:
+    """Measure one and two workers in turn, until that was undisturbed often enough."""
+    for engine in engines:
         evaluator = Evaluator(SPEC, [f"study.evaluations={EVALUATIONS}"], engine=engine)
         evaluator.prepare()
         working, before = 0.0, costs.seconds
@@ -107,6 +107,7 @@ def cat(costs: Costs) -> None:
                 others = Others()
                 alone, together = (searched(evaluator, executor) for executor in (one, two))
                 pairs.append((alone, together, others.share()))
+                say(f"  {engine}, pair {len(pairs)}: {rates(pairs[-1:])}")
                 working += alone + 2 * together
         storing = costs.seconds - before
         calm = [pair for pair in pairs if pair[2] < UNDISTURBED]
@@ -156,9 +157,8 @@ def dask() -> None:
 
 def main() -> None:
     """Measure what is asked for, or all."""
-    asked = sys.argv[1:] or ["cat", "threads", "dask"]
-    if "cat" in asked:
-        cat(Costs())
+    asked = sys.argv[1:] or [*ENGINES, "threads", "dask"]
+    cat(Costs(), [engine for engine in ENGINES if engine in asked])
     if "threads" in asked:
         threads()
     if "dask" in asked:
