@@ -5,7 +5,7 @@ PhysicsClientC_API.h and SharedMemoryPublic.h (https://github.com/bulletphysics/
 """
 
 from collections.abc import Mapping, Sequence
-from ctypes import PyDLL, Structure, byref, c_char, c_char_p, c_double, c_int, c_void_p, cast, sizeof
+from ctypes import CDLL, Structure, byref, c_char, c_char_p, c_double, c_int, c_void_p, cast, sizeof
 from functools import cache
 from importlib.metadata import version
 from importlib.util import find_spec
@@ -116,16 +116,13 @@ class _DynamicsInfo(Structure):
 
 
 @cache
-def bullet_library() -> PyDLL | None:
-    """Return Bullet's C functions, or None where this PyBullet has other ones or does not export them.
-
-    Calls through it hold the interpreter lock, because loading of models shares memory between clients.
-    """
+def bullet_library() -> CDLL | None:
+    """Return Bullet's C functions, or None where this PyBullet has other ones or does not export them."""
     spec = find_spec("pybullet")
     if spec is None or spec.origin is None or version("pybullet") != _VERSION or sizeof(c_void_p) != 8:
         return None
     try:
-        library = PyDLL(spec.origin)
+        library = CDLL(spec.origin)
         for name, (result, *arguments) in _SIGNATURES.items():
             function = getattr(library, name)
             function.restype, function.argtypes = result, arguments
@@ -141,7 +138,7 @@ class CClient(BulletClient):
         handle: Bullet's pointer to the client, 0 when closed.
     """
 
-    def __init__(self, library: PyDLL) -> None:
+    def __init__(self, library: CDLL) -> None:
         """Connect."""
         self._b3 = library
         self.handle: int = library.b3ConnectPhysicsDirect()

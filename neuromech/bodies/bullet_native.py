@@ -25,6 +25,7 @@ from neuromech.compiler.foreign import (
     load_double,
     load_int,
 )
+from neuromech.compiler.memory import NOTHING_COUNTED, apart
 from neuromech.compiler.numerics import Integers
 from neuromech.errors import RunError
 
@@ -78,6 +79,9 @@ _WORLD_FRAME: Final = 2
 _HAS_STATE: Final = 21
 _STEPPED: Final = 26
 
+# Where the zeros in `BulletEngine.answer` begin: as floats the coordinates of nowhere.
+_NOWHERE: Final = 3
+
 # The pose of a link, in bytes.
 _POSE_SIZE: Final = 56
 _HEIGHT: Final = 16
@@ -119,7 +123,7 @@ class BulletEngine(NamedTuple):
         rows: Bullet's link number -> row of the contact, −1 for other links.
         constants: first pose of the root frame (7), centre of mass of the root segment in its frame (3), height
             above which each contact is clear of the ground.
-        answer: room for what Bullet answers.
+        answer: room for what Bullet answers, then three zeros.
         links: (segments + weights, 2) robot and Bullet's link number of each segment, −1 of a root link; then the
             weights on strings.
         weights: (weights,) Bullet's numbers of the weights.
@@ -187,19 +191,19 @@ def _engine(client: CClient, world: BulletWorld) -> BulletEngine:
     kind = PLANAR if world.root else FREE if world.free else FIXED
     return BulletEngine(
         calls=np.array([client.address(name) for name in _CALLS], dtype=np.int64),
-        world=np.array([client.handle, world.robot, ground, kind, 0], dtype=np.int64),
+        world=apart(np.array([client.handle, world.robot, ground, kind, 0], dtype=np.int64)),
         positions=np.array([joint.position for joint in joints], dtype=np.int64),
         velocities=np.array([joint.velocity for joint in joints], dtype=np.int64),
         rows=rows,
         constants=np.array([*world.root_pose, *world.center, *world.clear_heights]),
-        answer=np.zeros(3, dtype=np.int64),
+        answer=apart(np.zeros(_NOWHERE + 3, dtype=np.int64)),
         links=np.array(world.links, dtype=np.int64),
         weights=np.array(world.weights, dtype=np.int64),
     )
 
 
 def _exact(function: Callable[..., Any], keep: bool = False) -> Any:
-    return numba.njit(cache=keep, nogil=True, error_model="numpy")(function)
+    return numba.njit(cache=keep, nogil=True, error_model="numpy", **NOTHING_COUNTED)(function)
 
 
 @partial(_exact, keep=True)
@@ -266,12 +270,12 @@ def push(engine: BulletEngine, segment: int, acting: Floats) -> int:
 @partial(_exact, keep=True)
 def place(engine: BulletEngine, weight: int, position: Floats) -> int:
     """Put the weight of a pendulum to a place (3,), at rest. Returns 0."""
-    calls, nowhere = engine.calls, np.zeros(3)
+    calls, nowhere = engine.calls, engine.answer.ctypes.data + 8 * _NOWHERE
     command = _of_robot(calls[_POSE], (engine.world[CLIENT], engine.weights[weight]))
     _set_place(calls[_SET_PLACE], (command, position[0], position[1], position[2]))
     _set_turn(calls[_SET_TURN], (command, 0.0, 0.0, 0.0, 1.0))
-    _set_velocity(calls[_SET_VELOCITY], (command, nowhere.ctypes.data))
-    _set_velocity(calls[_SET_SPIN], (command, nowhere.ctypes.data))
+    _set_velocity(calls[_SET_VELOCITY], (command, nowhere))
+    _set_velocity(calls[_SET_SPIN], (command, nowhere))
     _answered(engine, command)
     return 0
 

@@ -36,12 +36,13 @@ def read(engine: tuple[Any, ...], state: Floats) -> int:
     if root[0] == FREE_ROOT:
         _read_free_root(positions, velocities, pose, velocity)
     else:
-        pose[:] = root[1:]
-        velocity[:] = 0.0
+        for k in range(13):
+            state[2 * n + k] = root[1 + k] if k < 7 else 0.0
         if root[0] == PLANAR_ROOT:
             _read_planar_root(positions, velocities, pose, velocity)
     hanging = 2 * n + 13 + forces.shape[0]
-    state[2 * n + 13 : hanging] = forces
+    for k in range(forces.shape[0]):
+        state[2 * n + 13 + k] = forces[k]
     for k in range(weights.shape[1]):
         for c in range(3):
             state[hanging + 9 * k + c] = positions[weights[0, k] + c]
@@ -97,10 +98,11 @@ def _read_planar_root(positions: Floats, velocities: Floats, pose: Floats, veloc
 
 @exactly
 def _read_free_root(positions: Floats, velocities: Floats, pose: Floats, velocity: Floats) -> None:
-    pose[:3] = positions[:3]
-    pose[3:6] = positions[4:7]
+    for c in range(3):
+        pose[c] = positions[c]
+        pose[3 + c] = positions[4 + c]
+        velocity[c] = velocities[c]
     pose[6] = positions[3]
-    velocity[:3] = velocities[:3]
     # MuJoCo gives the angular velocity in the segment's axes.
     x, y, z, w = pose[3], pose[4], pose[5], pose[6]
     a, b, c = velocities[3], velocities[4], velocities[5]

@@ -5,6 +5,7 @@ repeats a run bit for bit only in a fresh world (https://github.com/bulletphysic
 """
 
 from collections.abc import Sequence
+from threading import Lock
 from typing import ClassVar, Literal, Protocol
 
 from neuromech.bodies.base import Body, Engine, Floats, initial_motion
@@ -19,6 +20,9 @@ from neuromech.errors import RunError
 from neuromech.graph.model import BodyModel
 
 Path = Literal["native", "python"]
+
+# Loading of models shares memory between clients; stepping does not.
+_BUILDING = Lock()
 
 
 class _Motion(Protocol):
@@ -104,7 +108,8 @@ class PyBulletBody(Body):
     def close(self) -> None:
         """Disconnect the physics client."""
         if self._motion is not None:
-            self._motion.client.close()
+            with _BUILDING:
+                self._motion.client.close()
             self._motion = None
 
     def _opened(self) -> _Motion:
@@ -113,13 +118,14 @@ class PyBulletBody(Body):
         return self._motion
 
     def _start(self, angles: Sequence[float] | Floats, velocities: Sequence[float] | Floats) -> None:
-        client = _connect(self._path)
-        try:
-            world = build_world(client, self._body, self.step_seconds)
-            put(client, world, self._body, angles, velocities)
-        except BaseException:
-            client.close()
-            raise
+        with _BUILDING:
+            client = _connect(self._path)
+            try:
+                world = build_world(client, self._body, self.step_seconds)
+                put(client, world, self._body, angles, velocities)
+            except BaseException:
+                client.close()
+                raise
         self._motion = _motion(client, world, self.layout)
 
 

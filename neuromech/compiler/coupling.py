@@ -1,6 +1,8 @@
 """Muscle and joint torques, and the linearly implicit coupling with the body. Derived in docs/numerics.md."""
 
-from neuromech.compiler.numerics import Floats, Integers, equation, solve_symmetric
+from neuromech.compiler.numerics import Floats, Integers, equation
+from neuromech.compiler.solving import solve_symmetric, solve_under_free_root
+from neuromech.compiler.tree import FREE_ROOT
 
 
 @equation
@@ -72,7 +74,10 @@ def observer_implicit(
             mass[i, j] += drag
     for i in range(n, acceleration.shape[0]):
         acceleration[i] = 0.0
-    solve_symmetric(mass, first, acceleration)
+    if acceleration.shape[0] - n == FREE_ROOT:
+        solve_under_free_root(mass, first, acceleration)
+    else:
+        solve_symmetric(mass, first, acceleration)
     for i in range(n):
         acceleration[i] += last_velocity[i]
     for i in range(n):

@@ -7,6 +7,7 @@ Beyond ±708 the argument of exp is cut.
 """
 
 import struct
+from collections.abc import Callable
 from math import nan
 from typing import Any
 
@@ -14,6 +15,8 @@ import numba
 from llvmlite import ir
 from numba.core import types
 from numba.extending import intrinsic
+
+from neuromech.compiler.memory import NOTHING_COUNTED
 
 # Adding this to a number smaller than 2⁵¹ leaves its nearest whole number in the lowest bits of the sum.
 _ROUNDER = 6755399441055744.0
@@ -46,8 +49,13 @@ _bits = _reinterpreted(types.int64, types.float64, ir.IntType(64))
 _from_bits = _reinterpreted(types.float64, types.int64, ir.DoubleType())
 
 
-# Sums must not be reordered here: adding and subtracting the rounder is the point.
-@numba.njit(nogil=True, error_model="numpy", fastmath={"contract"}, forceinline=True)
+def _inlined(function: Callable[[float], float]) -> Any:
+    # Sums must not be reordered here: adding and subtracting the rounder is the point.
+    options = {**NOTHING_COUNTED, "forceinline": True}
+    return numba.njit(nogil=True, error_model="numpy", fastmath={"contract"}, **options)(function)
+
+
+@_inlined
 def exp(x: float) -> float:
     """Return e to the power of x."""
     cut = min(max(x, -_LARGEST), _LARGEST)
@@ -71,7 +79,7 @@ def exp(x: float) -> float:
 
 
 # exp(x) − 1 = 2ⁿ (exp(r) − 1) + (2ⁿ − 1): for small x n is zero, and nothing cancels.
-@numba.njit(nogil=True, error_model="numpy", fastmath={"contract"}, forceinline=True)
+@_inlined
 def expm1(x: float) -> float:
     """Return e to the power of x, minus one."""
     cut = min(max(x, -_LARGEST), _LARGEST)
@@ -94,7 +102,7 @@ def expm1(x: float) -> float:
     return power * (q * r) + (power - 1.0)
 
 
-@numba.njit(nogil=True, error_model="numpy", fastmath={"contract"}, forceinline=True)
+@_inlined
 def log(x: float) -> float:
     """Return the natural logarithm of x; not a number for a negative x, and −708 or less for zero."""
     bits = _bits(x)
@@ -121,8 +129,8 @@ def log(x: float) -> float:
     return value if x >= 0.0 else nan
 
 
-@numba.njit(nogil=True, error_model="numpy", fastmath={"contract"}, forceinline=True)
+@_inlined
 def cosh(x: float) -> float:
     """Return the hyperbolic cosine of x."""
-    power = exp(x)
+    power: float = exp(x)
     return 0.5 * (power + 1.0 / power)

@@ -1,6 +1,7 @@
 """Shape -> source of the module that steps it. The module is meant to be read: `neuromech compile SPEC`."""
 
-from collections.abc import Callable, Iterator
+import re
+from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 from neuromech.compiler.shape import (
@@ -13,7 +14,12 @@ from neuromech.compiler.shape import (
     is_divided,
     is_scheduled,
 )
-from neuromech.compiler.template import BODY, GATHER, GATHER_SLOTS, NETWORK, NO_BODY, ROWS, STEPPERS, TEAM_GATHER
+from neuromech.compiler.template_body import BODY
+from neuromech.compiler.template_network import NETWORK, NO_BODY, STEPPERS
+from neuromech.compiler.template_record import RECORD
+from neuromech.compiler.template_sums import GATHER, GATHER_SLOTS, ROWS, TEAM_GATHER
+
+_CONDITION = re.compile(r" *if (not )?<(delays|shared weights|relays|commanded|memory)>:")
 
 # Arguments of `advance` that are no state, input or parameter.
 _OF_STEP = ("duration", "elapsed")
@@ -40,6 +46,7 @@ def generate(shape: Shape) -> str:
         _advances(shape),
         _arrivals(shape),
         NETWORK,
+        RECORD,
         STEPPERS[shape.method],
         BODY if shape.has_body else NO_BODY,
     ]
@@ -47,8 +54,6 @@ def generate(shape: Shape) -> str:
 
 
 def _fill(text: str, shape: Shape) -> str:
-    for name in shape.header():
-        text = text.replace(f"<{name}>", f"I[{_constant(name)}]")
     relays = any(is_scheduled(kind) and not evaluated_with_body(kind.cls) for kind in shape.kinds)
     flags = {
         "delays": shape.has_delays,
@@ -57,9 +62,26 @@ def _fill(text: str, shape: Shape) -> str:
         "commanded": any(is_commanded(kind.cls) for kind in shape.kinds),
         "memory": any(kind.cls.advance for kind in shape.kinds if not evaluated_with_body(kind.cls)),
     }
-    for name, flag in flags.items():
-        text = text.replace(f"<{name}>", str(flag))
+    text = _chosen(text, flags)
+    for name in shape.header():
+        text = text.replace(f"<{name}>", f"I[{_constant(name)}]")
     return text
+
+
+def _chosen(text: str, flags: Mapping[str, bool]) -> str:
+    """Keep what stands below `if <flag>:` where the flag holds, else drop it: what is not there is not compiled."""
+    kept = list[str]()
+    conditions = list[tuple[int, bool]]()
+    for line in text.splitlines():
+        indentation = len(line) - len(line.lstrip())
+        while line and conditions and indentation <= conditions[-1][0]:
+            conditions.pop()
+        found = _CONDITION.fullmatch(line)
+        if found:
+            conditions.append((indentation, flags[found[2]] != bool(found[1])))
+        elif not line or all(holds for _, holds in conditions):
+            kept.append(line[4 * len(conditions) :])
+    return "\n".join(kept) + "\n"
 
 
 def _constant(name: str) -> str:
@@ -85,6 +107,7 @@ def _imports(shape: Shape) -> str:
         "from neuromech.compiler.numerics import compiled, copy_from, elementwise, inlined, interpolate",
         "from neuromech.compiler.numerics import part, relaxed, sum_at, weighted_sum_at",
         "from neuromech.compiler.paths import LEVER_ARMS, STRAIGHT_LINES, lever, straight_path",
+        "from neuromech.compiler.span import places_of, span_of",
         "from neuromech.compiler.team import DONE, FIRST, HELPERS, LAST, NEXT, ORDER, PART, STOP",
         "from neuromech.compiler.team import add, load, rest_now_and_then, store",
         *sorted({f"from {kind.cls.__module__} import {kind.cls.__qualname__}" for kind in shape.kinds}),
@@ -127,20 +150,21 @@ def _locals(kind: KindShape, function: Callable[..., Any], part: str) -> Iterato
     yield f"count = <{kind.name}.count>  # {kind.name}"
     arguments = argument_names(function)
     states = [(state.name, k) for k, state in enumerate(kind.cls.states)]
-    yield from (f"{name} = x[{_block(kind, 'states', k)}]" for name, k in states if name in arguments)
+    yield from (f"{name} = {_block('x', kind, 'states', k)}" for name, k in states if name in arguments)
     ports = [(port.name, k) for k, port in enumerate(kind.cls.inputs)]
-    yield from (f"{name} = u[{_block(kind, 'inputs', k)}]" for name, k in ports if name in arguments)
+    yield from (f"{name} = {_block('u', kind, 'inputs', k)}" for name, k in ports if name in arguments)
     for name in arguments:
         if name in kind.cls.model_fields:
-            yield f"{name} = p[{f'<{kind.name}.{name}>' if name in kind.uniform else _block(kind, name, 0)}]"
+            one = f"p[<{kind.name}.{name}>]"
+            yield f"{name} = {one if name in kind.uniform else _block('p', kind, name, 0)}"
     if part == "output":
-        yield from (f"{name}_out = s[{_block(kind, 'outputs', k)}]" for name, k in _outputs_of(kind, part))
+        yield from (f"{name}_out = {_block('s', kind, 'outputs', k)}" for name, k in _outputs_of(kind, part))
     elif part == "advance":
-        yield from (f"next_{name} = F[{_block(kind, 'states', k, '<advanced> + ')}]" for name, k in states)
-        yield from (f"{name}_out = s[{_block(kind, 'outputs', k)}]" for name, k in _outputs_of(kind, part))
+        yield from (f"next_{name} = {_block('F', kind, 'states', k, '<advanced> + ')}" for name, k in states)
+        yield from (f"{name}_out = {_block('s', kind, 'outputs', k)}" for name, k in _outputs_of(kind, part))
     else:
         for name, k in states:
-            yield from (f"{target}_of_{name} = {target}[{_block(kind, 'states', k)}]" for target in ("drive", "rate"))
+            yield from (f"{target}_of_{name} = {_block(target, kind, 'states', k)}" for target in ("drive", "rate"))
 
 
 def _outputs_of(kind: KindShape, part: str) -> list[tuple[str, int]]:
@@ -150,11 +174,10 @@ def _outputs_of(kind: KindShape, part: str) -> list[tuple[str, int]]:
     return named[own:] if part == "advance" else named[:own]
 
 
-def _block(kind: KindShape, section: str, k: int, base: str = "") -> str:
-    """Return the slice of the k-th block of `count` numbers of a section, counted from the offset `base`."""
-    start = f"{base}<{kind.name}.{section}>"
-    first = start + ("" if k == 0 else " + count" if k == 1 else f" + {k} * count")
-    return f"{first} : {start} + " + ("count" if k == 0 else f"{k + 1} * count")
+def _block(array: str, kind: KindShape, section: str, k: int, base: str = "") -> str:
+    """Return the k-th block of `count` numbers of a section of an array, counted from the offset `base`."""
+    further = "" if k == 0 else " + count" if k == 1 else f" + {k} * count"
+    return f"span_of({array}, {base}<{kind.name}.{section}>{further}, count)"
 
 
 def _call(kind: KindShape, function: Callable[..., Any], part: str) -> Iterator[str]:
@@ -196,8 +219,9 @@ def _dispatch(function: str, shape: Shape, *, with_body: bool) -> str:
         "    source = I[<row_source> :].view(np.uint32)",
         "    row_start, weights, base = <row_start>, <weights>, <base>",
         f"    for k in range(<{name}_ordered>):",
-        f"        kind, first, last = I[<{name}_order> + 3 * k : <{name}_order> + 3 * k + 3]",
-        f"        members = I[<{name}_members> + first : <{name}_members> + last]",
+        f"        at = <{name}_order> + 3 * k",
+        "        kind, first, last = I[at], I[at + 1], I[at + 2]",
+        f"        members = span_of(I, <{name}_members> + first, last - first)",
     ]
     for branch, kind in enumerate(kinds):
         if kind.cls.output:

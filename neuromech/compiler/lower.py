@@ -101,10 +101,8 @@ def lower(graph: ModelGraph) -> Program:
 
 
 def _tracked(graph: ModelGraph) -> Iterable[str]:
-    """Return the segments whose motion is looked at: the root, what sensors refer to, what is recorded."""
+    """Return the segments whose motion is looked at: what sensors refer to, what is recorded."""
     segments = {element.name for element in graph.elements("segment")}
-    if graph.body is not None:
-        yield graph.body.root_segment
     yield from (sender for sender, _, _ in graph.connections("wire") if sender in segments)
     for name in recorded_names(graph):
         if name.rpartition(".")[0] in segments:

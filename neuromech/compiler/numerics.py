@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from neuromech.compiler.exponential import cosh, exp, expm1, log
+from neuromech.compiler.memory import NOTHING_COUNTED
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -18,22 +19,22 @@ Places = NDArray[np.uint32]
 _FAST_MATH = {"contract", "arcp", "nsz", "afn", "reassoc"}
 
 # What Python needs to call a function takes a fifth of the time to compile it.
-_UNKNOWN_TO_PYTHON: dict[str, Any] = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
+_UNKNOWN_TO_PYTHON: dict[str, Any] = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True, **NOTHING_COUNTED}
 
 
 def compiled(function: Callable[..., Any]) -> Any:
     """Compile a kernel on first call; releases the interpreter lock, keeps its machine code on disk."""
-    return numba.njit(cache=True, nogil=True, error_model="numpy", fastmath=_FAST_MATH)(function)
+    return numba.njit(cache=True, nogil=True, error_model="numpy", fastmath=_FAST_MATH, **NOTHING_COUNTED)(function)
 
 
 def exactly(function: Callable[..., Any]) -> Any:
     """Compile a kernel as it is written, without fast mathematics: the same bits whatever it is inlined into."""
-    return numba.njit(cache=True, nogil=True, error_model="numpy")(function)
+    return numba.njit(cache=True, nogil=True, error_model="numpy", **NOTHING_COUNTED)(function)
 
 
 def equation(function: Callable[..., Any]) -> Any:
     """Compile a function that is inlined into the kernel that calls it, so that nothing is kept on disk."""
-    return numba.njit(nogil=True, error_model="numpy", fastmath=_FAST_MATH)(function)
+    return numba.njit(nogil=True, error_model="numpy", fastmath=_FAST_MATH, **NOTHING_COUNTED)(function)
 
 
 def part(function: Callable[..., Any]) -> Any:
@@ -59,7 +60,8 @@ def elementwise(function: Callable[..., Any]) -> Any:
         if isinstance(helper, FunctionType) and helper.__module__ == function.__module__:
             names[name] = elementwise(helper)
     own = FunctionType(function.__code__, names, function.__name__, function.__defaults__)
-    return numba.njit(nogil=True, error_model="numpy", fastmath=_FAST_MATH, forceinline=True)(own)
+    options = {**NOTHING_COUNTED, "forceinline": True}
+    return numba.njit(nogil=True, error_model="numpy", fastmath=_FAST_MATH, **options)(own)
 
 
 def _in_order(function: Callable[..., Any]) -> Any:
@@ -132,31 +134,3 @@ def interpolate(t: float, start: int, count: int, times: int, values: int, p: Fl
         return float(p[values + k])
     share = (t - p[times + k]) / (p[times + k + 1] - p[times + k])
     return float(p[values + k] + share * (p[values + k + 1] - p[values + k]))
-
-
-@equation
-def solve_symmetric(matrix: Floats, first: Integers, vector: Floats) -> None:
-    """Solve A x = b in place for a symmetric positive definite A (n, n) given by its lower triangle; b becomes x.
-
-    `first` (n,) is the column of the first number of each row that may differ from zero: the factors L D Lᵀ have zeros
-    in the same places, so nothing is done there (Jennings 1966, doi:10.1093/comjnl/9.3.281). A becomes its factors.
-    """
-    n = vector.shape[0]
-    for i in range(n):
-        for j in range(first[i], i):
-            total = matrix[i, j]
-            for k in range(max(first[i], first[j]), j):
-                total -= matrix[i, k] * matrix[j, k]
-            matrix[i, j] = total
-        pivot = matrix[i, i]
-        for j in range(first[i], i):
-            factor = matrix[i, j] * matrix[j, j]
-            pivot -= factor * matrix[i, j]
-            matrix[i, j] = factor
-            vector[i] -= factor * vector[j]
-        matrix[i, i] = 1.0 / pivot
-    for i in range(n):
-        vector[i] *= matrix[i, i]
-    for i in range(n - 1, -1, -1):
-        for j in range(first[i], i):
-            vector[j] -= matrix[i, j] * vector[i]

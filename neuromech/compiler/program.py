@@ -8,6 +8,7 @@ import numpy as np
 
 from neuromech.compiler.cache import import_file
 from neuromech.compiler.layout import Layout
+from neuromech.compiler.memory import apart
 from neuromech.compiler.numerics import Floats, Integers
 from neuromech.compiler.records import RecordGroup
 from neuromech.compiler.shape import Shape
@@ -73,12 +74,12 @@ class Memory:
     """The buffers of one run: x states, s signals, u inputs, p parameters, F work, I offsets, T tree, D kinematics."""
 
     def __init__(self, program: Program) -> None:
-        self.x = program.initial.copy()
-        self.s = np.zeros(program.layout.signal_count)
-        self.u = np.zeros(program.layout.input_count)
-        self.p = program.parameters.copy()
-        self.F = np.zeros(program.work_size)
-        self.I = program.integers.copy()
+        self.x = apart(program.initial)
+        self.s = apart(np.zeros(program.layout.signal_count))
+        self.u = apart(np.zeros(program.layout.input_count))
+        self.p = apart(program.parameters)
+        self.F = apart(np.zeros(program.work_size))
+        self.I = apart(program.integers)
         if program.tree is not None:
             self.T, self.D = _kinematics(program.tree, program.path_points)
             first = program.header["last_torque"]
@@ -105,4 +106,4 @@ def _kinematics(tree: Tree, path_points: int) -> tuple[tuple[Integers | Floats, 
         np.zeros((joints + tree.root, joints + tree.root)),
         np.zeros((joints, joints)),
     )
-    return fixed, moving
+    return fixed, tuple(map(apart, moving))

@@ -27,12 +27,10 @@ def initial_states(program: Program, seed: int) -> Floats:
     for name, block in layout.state_blocks.items():
         share[block.start : block.stop] = generator(seed, name).random(len(block))
     for pattern, wanted in program.graph.document.experiment.protocol.initial.items():
+        ends = wanted.uniform if isinstance(wanted, Uniform) else (wanted, wanted)
+        low, high = (quantity(str(end)) for end in ends)
         for places in layout.state_places(pattern):
-            if isinstance(wanted, Uniform):
-                low, high = (quantity(str(end)) for end in wanted.uniform)
-                values[places.start : places.stop] = low + share[places.start : places.stop] * (high - low)
-            else:
-                values[places.start : places.stop] = quantity(str(wanted))
+            values[places.start : places.stop] = low + share[places.start : places.stop] * (high - low)
     return values
 
 

@@ -21,7 +21,8 @@ from neuromech.pipeline import build_graph, load_document
 
 PARTS = {
     "kinematics": "kinematics(s, F, I, T, D)",
-    "paths, muscles and sensors, kinematics included": "mechanics(x, s, u, p, F, I, T, D)",
+    "muscle paths": "muscle_paths(s, p, F, I, T, D)",
+    "muscles and sensors": "evaluate_mechanics(x, s, u, p, F, I)",
     "states that components advance": "advance_states(1e-3, x, s, u, p, F, I)",
     "mass matrix": "inertia_of_all(T[0], T[1], I[ROOT], D[0], D[1], D[7], D[8])",
     "torques and coupling, mass matrix included": "torques(1e-3, x, s, u, p, F, I, T, D)",

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from neuromech.compiler.coupling import muscle_damping, muscle_torque, observer_implicit, soft_limit
-from neuromech.compiler.numerics import interpolate, relaxed, solve_symmetric
+from neuromech.compiler.numerics import interpolate, relaxed
+from neuromech.compiler.solving import solve_symmetric, solve_under_free_root
 
 ARMS = np.array([0.01, -0.02, 0.03, 0.015])
 FIRST, JOINT = np.array([0, 2, 3, 4]), np.array([0, 2, 1, 2])
@@ -32,6 +33,19 @@ def test_only_what_lies_within_the_envelope_is_read():
     solution = vector.copy()
     solve_symmetric(given, first, solution)
     assert solution == pytest.approx(np.linalg.solve(blocks, vector), rel=1e-9)
+
+
+@pytest.mark.parametrize("limbs", [(3, 3, 3, 3), (1,), (2, 5), ()])
+def test_joints_under_a_free_root_are_solved_as_any_others(limbs):
+    starts = np.cumsum([0, *limbs])
+    first = np.array([*np.repeat(starts[:-1], limbs), *[0] * 6], dtype=np.int64)
+    whole = spd(3, len(first)) + 10.0 * np.eye(len(first))
+    outside = np.indices(whole.shape)[1] < first[:, None]
+    whole[outside | outside.T] = 0.0
+    vector = np.arange(1.0, len(first) + 1.0)
+    solution = vector.copy()
+    solve_under_free_root(np.where(outside, np.nan, np.tril(whole)), first, solution)
+    assert solution == pytest.approx(np.linalg.solve(whole, vector), rel=1e-9)
 
 
 def test_torque_and_damping_are_products_with_the_moment_arms():
