@@ -61,6 +61,17 @@ def test_the_number_of_instances_does_not_change_the_code():
     ]
 
 
+DELAYED = ("network.synapses.excitatory={a: {a: {weight: 0.5, delay: 3 ms}}}",)
+
+
+@pytest.mark.parametrize(("changes", "is_there"), [((), False), (DELAYED, True)])
+def test_what_a_document_does_not_use_is_not_written(changes, is_there, tmp_path):
+    (tmp_path / "small.yaml").write_text(SMALL)
+    source = lowered(tmp_path / "small.yaml", *changes).source
+    assert ("    delayed_inputs(step, fraction, p, F, I)" in source) == is_there
+    assert not any(text in source for text in ("if <", "if not <", "if True", "if False"))
+
+
 SMALL = """\
 neuromech: 1
 name: small
