@@ -8,7 +8,6 @@ import numpy as np
 from scipy.ndimage import gaussian_filter1d
 
 from neuromech.analyse.windows import Array
-from neuromech.report.replay import Poses
 
 Angle = Literal["side", "front", "follow"]
 ANGLES: tuple[Angle, ...] = get_args(Angle)
@@ -46,17 +45,17 @@ class Camera:
         return float(np.linalg.norm(self.eye - self.target))
 
 
-def followed(poses: Poses, angle: Angle, size: float) -> list[Camera]:
+def followed(time: Array, points: Array, angle: Angle, size: float) -> list[Camera]:
     """Return a camera for each pose; it goes evenly with the body and keeps its direction.
 
     Args:
-        poses: at times of equal distance.
+        time: of the poses (s), at equal distance; (n,).
+        points: of the body in each pose (m); (n, points, 3).
         angle: from the right, from the front, or from behind on the right.
         size: of the body, in m.
     """
-    points = np.concatenate((poses.position, poses.contact), axis=1)
     middle = 0.5 * (points.min(axis=1) + points.max(axis=1))
-    step = float(poses.time[1] - poses.time[0]) if len(poses) > 1 else 1.0
+    step = float(time[1] - time[0]) if len(time) > 1 else 1.0
     targets = gaussian_filter1d(middle, _SMOOTHING / step, axis=0, mode="nearest")
     distance = 0.5 * _HEIGHT_SHOWN * size / tan(radians(0.5 * FIELD_OF_VIEW))
     azimuth, elevation = _DIRECTIONS[angle]

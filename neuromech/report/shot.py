@@ -11,7 +11,7 @@ from neuromech.errors import MeasureError
 from neuromech.graph.model import BodyModel
 from neuromech.report.camera import Angle, Camera, followed
 from neuromech.report.replay import Motion, Poses
-from neuromech.report.solids import body_size
+from neuromech.report.solids import body_size, outline
 from neuromech.report.weights import Swing, recorded_swings
 from neuromech.simulate.recording import Recording
 from neuromech.spec.measure import Measure
@@ -44,8 +44,9 @@ def shoot(motion: Motion, angle: Angle, times: Array) -> Shot:
     size = body_size(motion.body, poses)
     loads = [_loaded(motion.recording, contact, times) for contact in motion.body.contacts]
     loaded = np.column_stack([np.empty((len(times), 0), dtype=np.bool_), *loads])
+    cameras = tuple(followed(poses.time, outline(motion.body, poses), angle, size))
     swings = tuple(recorded_swings(motion.body, motion.recording))
-    return Shot(motion.body, size, poses, loaded, tuple(followed(poses, angle, size)), swings)
+    return Shot(motion.body, size, poses, loaded, cameras, swings)
 
 
 def _loaded(recording: Recording, contact: str, times: Array) -> NDArray[np.bool_]:

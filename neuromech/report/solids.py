@@ -46,7 +46,8 @@ class Solid:
 def segment_solids(body: BodyModel, poses: Poses, size: float) -> list[Solid]:
     """Return the solids of all segments: left legs orange, right legs blue, what is in the middle grey.
 
-    A segment without a shape is shown as rods from its joint to what it carries.
+    A segment without a shape is shown as rods from its joint to what it carries. In a body whose legs all stand in the
+    middle, as that of a planar walker, legs called `left` and `right` are coloured by their names.
 
     Args:
         body: the body.
@@ -54,7 +55,7 @@ def segment_solids(body: BodyModel, poses: Poses, size: float) -> list[Solid]:
         size: of the body, in m.
     """
     return [
-        Solid(row, mesh, _color(poses, row, size))
+        Solid(row, mesh, _color(poses, row, size, name))
         for row, (name, segment) in enumerate(body.segments.items())
         for mesh in _meshes(body, name, segment, size)
     ]
@@ -76,12 +77,18 @@ def weight_solids(swing: Swing) -> list[tuple[Mesh, Color]]:
 
 def body_size(body: BodyModel, poses: Poses) -> float:
     """Return the diagonal (m) of the box that holds the first pose's joints, contacts and boxes."""
-    points = [*poses.position[0], *poses.contact[0]]
-    for row, segment in enumerate(body.segments.values()):
-        for point in _outline(segment):
-            points.append(poses.position[0, row] + poses.rotation[0, row] @ point)
-    diagonal = float(np.linalg.norm(np.ptp(points, axis=0)))
+    diagonal = float(np.linalg.norm(np.ptp(outline(body, poses)[0], axis=0)))
     return diagonal or 1.0
+
+
+def outline(body: BodyModel, poses: Poses) -> Array:
+    """Return the joints and contacts of a body and the ends of its solids in each pose, in m; (n, points, 3)."""
+    ends = [
+        poses.position[:, row] + poses.rotation[:, row] @ point
+        for row, segment in enumerate(body.segments.values())
+        for point in _outline(segment)
+    ]
+    return np.concatenate((poses.position, poses.contact, np.stack(ends, axis=1)), axis=1)
 
 
 def _outline(segment: Segment) -> Iterator[Array]:
@@ -112,9 +119,9 @@ def _carried(body: BodyModel, name: str) -> list[Array]:
     return [np.array(position, dtype=np.float64) for position in (*joints, *contacts)]
 
 
-def _color(poses: Poses, row: int, size: float) -> Color:
+def _color(poses: Poses, row: int, size: float, name: str) -> Color:
     """Return the colour of the side of the root that a segment hangs on."""
     seen = poses.rotation[0, 0].T @ (poses.position[0, row] - poses.position[0, 0])
     if abs(seen[1]) < _OFF_MIDDLE * size:
-        return MIDDLE
+        return {"left": LEFT, "right": RIGHT}.get(name.partition(".")[0], MIDDLE)
     return LEFT if seen[1] > 0.0 else RIGHT

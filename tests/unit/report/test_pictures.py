@@ -3,21 +3,22 @@
 import json
 from dataclasses import replace
 from math import cos, pi, sin
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from neuromech.errors import RecordingError
 from neuromech.graph.terrain import terrain
-from neuromech.pipeline import run
+from neuromech.pipeline import build_graph, load_document, run
 from neuromech.report.camera import followed
 from neuromech.report.ground import LEVEL, RAISED, ground_pieces, square
 from neuromech.report.layout import NotDrawableError
 from neuromech.report.meshes import box, capsule, sheet
-from neuromech.report.replay import Motion, recorded_body
+from neuromech.report.replay import Motion, Poses, recorded_body
 from neuromech.report.scene import Picture, Scene
 from neuromech.report.shot import shoot
-from neuromech.report.solids import LEFT, LOADED, RIGHT, body_size, segment_solids
+from neuromech.report.solids import LEFT, LOADED, RIGHT, body_size, outline, segment_solids
 from neuromech.report.stills import stills_figure
 from neuromech.report.video import Film, load_av, write_video
 from neuromech.spec.world import Ground, World
@@ -254,7 +255,7 @@ def test_the_camera_follows_evenly_and_keeps_its_direction(recordings):
     recording = recordings()
     motion = Motion(recorded_body(recording), recording)
     poses = motion.at(np.linspace(0.0, 0.4, 21))
-    cameras = followed(poses, "side", body_size(motion.body, poses))
+    cameras = followed(poses.time, outline(motion.body, poses), "side", body_size(motion.body, poses))
     offsets = np.array([camera.eye - camera.target for camera in cameras])
     assert np.allclose(offsets, offsets[0])
     assert offsets[0][1] < 0.0
@@ -291,3 +292,28 @@ def test_slopes_and_steps_are_drawn_where_the_engines_have_them(recordings):
     low, high = tops[3].min(axis=0), tops[3].max(axis=0)
     assert (low, high) == (pytest.approx([-0.5, 0.1, 0.03]), pytest.approx([-0.2, 0.3, 0.03]))
     assert exact.height(-0.35, 0.2) == pytest.approx(0.03)
+
+
+@pytest.fixture(scope="module")
+def human():
+    """The planar human, all of its segments' frames in one place."""
+    body = build_graph(load_document(Path(__file__).parents[3] / "specs" / "human" / "body.yaml")).body
+    count = len(body.segments)
+    return body, Poses(np.zeros(1), np.zeros((1, count, 3)), np.tile(np.eye(3), (1, count, 1, 1)), np.zeros((1, 0, 3)))
+
+
+def test_legs_in_the_middle_have_the_colours_of_their_names(human):
+    body, poses = human
+    colors = {solid.segment: solid.color for solid in segment_solids(body, poses, 1.0)}
+    names = list(body.segments)
+    assert [colors[names.index(name)] for name in ("left.foot", "right.foot")] == [LEFT, RIGHT]
+    assert colors[names.index("trunk")] not in (LEFT, RIGHT)
+
+
+def test_the_camera_looks_at_the_middle_of_all_that_is_seen(human):
+    """The head of a walker is far above its highest joint."""
+    body, poses = human
+    points = outline(body, poses)
+    assert points[0, :, 2].max() == pytest.approx(0.8)
+    (camera,) = followed(poses.time, points, "side", 1.0)
+    assert camera.target[2] == pytest.approx(0.5 * (0.8 - 0.5))
