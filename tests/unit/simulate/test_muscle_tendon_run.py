@@ -118,3 +118,16 @@ def test_a_tendon_longer_than_its_path_is_refused_with_its_place(document):
     assert problem.path == "muscles.VAS.tendon_slack_length"
     assert "no equilibrium" in problem.message
     assert str(problem.mark).startswith(str(file))
+
+
+def test_a_muscle_is_what_it_is_however_many_there_are(document):
+    """Nine muscles of a ninth of the force move the shank as one does; they are evaluated eight at a time."""
+    one = shank(bias=0.3)
+    nine = shank(bias=0.3)
+    part = nine["muscles"].pop("VAS") | {"maximal_force": f"{FORCE / 9} N"}
+    nine["muscles"] = {f"VAS{number}": part for number in range(9)}
+    nine["record"]["all"]["signals"] = ["knee.*", "VAS8.*"]
+    whole, parts = run(document(one)), run(document(nine))
+    assert np.ptp(whole.signal("knee.angle")[1]) > 0.2
+    assert parts.signal("knee.angle")[1] == pytest.approx(whole.signal("knee.angle")[1], abs=1e-9)
+    assert parts.signal("VAS8.force")[1] == pytest.approx(whole.signal("VAS.force")[1] / 9, abs=1e-6)
