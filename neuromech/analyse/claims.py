@@ -130,4 +130,6 @@ def _summary(values: Sequence[Value]) -> Measured:
         return Measured(commonest, commonest, commonest, count)
     if not numbers:
         return Measured(f"{commonest} in {count} of {len(values)}", min(texts), max(texts), len(values))
-    return Measured(f"{commonest} in {count} of {len(values)}", min(numbers), max(numbers), len(values))
+    missing = f"{commonest} in {count}" if count == len(texts) else f"no value in {len(texts)}"
+    ending = "" if count == len(texts) else f", first: {texts[0]}"
+    return Measured(f"{missing} of {len(values)}{ending}", min(numbers), max(numbers), len(values))

@@ -89,6 +89,8 @@ def test_a_run_that_could_not_be_measured_is_not_met_and_says_why(expected):
     assert verdict.verdict == "not met"
     assert verdict.measured.median == "no rhythm in 1 of 3"
     assert (verdict.measured.min, verdict.measured.max) == (0.4, 0.5)
+    several = judge("s", "i", claim(expected), [seconds("fell at 2 s", 0.4, "fell at 1 s")])
+    assert several.measured.median == "no value in 2 of 3, first: fell at 2 s"
 
 
 def test_a_number_is_never_met_by_a_text_that_looks_equal():
