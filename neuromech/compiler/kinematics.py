@@ -2,11 +2,11 @@
 
 from math import asin, atan2, cos, sin
 
-from neuromech.compiler.numerics import Floats, Integers, compiled, inlined
+from neuromech.compiler.numerics import Floats, Integers, exactly
 from neuromech.compiler.tree import AXIS, HINGE, JOINT, KIND, PARENT, POSITION
 
 
-@compiled
+@exactly
 def forward_kinematics(
     topology: Integers, geometry: Floats, angles: Floats, root_pose: Floats, rotation: Floats, position: Floats
 ) -> None:
@@ -40,7 +40,7 @@ def forward_kinematics(
             position[i, k] = position[parent, k] + moved
 
 
-@compiled
+@exactly
 def segment_velocities(
     topology: Integers,
     geometry: Floats,
@@ -85,7 +85,7 @@ def segment_velocities(
                 linear[i, k] += along
 
 
-@compiled
+@exactly
 def contact_positions(
     contact_segment: Integers, contact_position: Floats, rotation: Floats, position: Floats, centers: Floats
 ) -> None:
@@ -98,14 +98,14 @@ def contact_positions(
                 centers[i, k] += rotation[segment, k, axis] * contact_position[i, axis]
 
 
-@compiled
+@exactly
 def roll_pitch_yaw(rotation: Floats) -> tuple[float, float, float]:
     """Return roll, pitch and yaw in rad of a (3, 3) rotation: R = Rz(yaw) Ry(pitch) Rx(roll), pitch in ±π/2."""
     pitch = asin(min(1.0, max(-1.0, -rotation[2, 0])))
     return atan2(rotation[2, 1], rotation[2, 2]), pitch, atan2(rotation[1, 0], rotation[0, 0])
 
 
-@compiled
+@exactly
 def quaternion_rotation(x: float, y: float, z: float, w: float, rotation: Floats) -> None:
     """Fill the (3, 3) rotation of a unit quaternion."""
     rotation[0, 0] = 1.0 - 2.0 * (y * y + z * z)
@@ -119,7 +119,7 @@ def quaternion_rotation(x: float, y: float, z: float, w: float, rotation: Floats
     rotation[2, 2] = 1.0 - 2.0 * (x * x + y * y)
 
 
-@inlined
+@exactly
 def world_axis(geometry: Floats, rotation: Floats, segment: int, k: int) -> float:
     """Return component `k` of a segment's joint axis in world axes."""
     component: float = (
@@ -130,7 +130,7 @@ def world_axis(geometry: Floats, rotation: Floats, segment: int, k: int) -> floa
     return component
 
 
-@inlined
+@exactly
 def _turn(parent: Floats, x: float, y: float, z: float, angle: float, rotation: Floats) -> None:
     # Rodrigues' formula, multiplied onto the parent's orientation.
     c = cos(angle)
