@@ -25,8 +25,8 @@ from neuromech.compiler.foreign import (
     load_double,
     load_int,
 )
-from neuromech.compiler.memory import NOTHING_COUNTED, apart
-from neuromech.compiler.numerics import Integers
+from neuromech.compiler.memory import apart
+from neuromech.compiler.numerics import AS_WRITTEN, Integers
 from neuromech.errors import RunError
 
 CLIENT, ROBOT, GROUND, ROOT, FAILED = range(5)
@@ -203,7 +203,7 @@ def _engine(client: CClient, world: BulletWorld) -> BulletEngine:
 
 
 def _exact(function: Callable[..., Any], keep: bool = False) -> Any:
-    return numba.njit(cache=keep, nogil=True, error_model="numpy", **NOTHING_COUNTED)(function)
+    return numba.njit(cache=keep, nogil=True, error_model="numpy", **AS_WRITTEN)(function)
 
 
 @partial(_exact, keep=True)

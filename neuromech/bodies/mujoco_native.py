@@ -14,16 +14,12 @@
     hits: (3 weights,) forces of the weights on the body.
 """
 
-from math import cos, floor, sin
+from math import cos, sin
 from typing import Any
-
-import numpy as np
 
 from neuromech.compiler.foreign import ADDRESS, NOTHING, foreign_function
 from neuromech.compiler.numerics import Floats, exactly
 from neuromech.compiler.tree import FREE_ROOT, PLANAR_ROOT
-
-_GRID = 2.0**26
 
 _call = foreign_function(NOTHING, ADDRESS, ADDRESS)
 
@@ -73,22 +69,15 @@ def step(engine: tuple[Any, ...], torque: Floats) -> int:
 def push(engine: tuple[Any, ...], segment: int, acting: Floats) -> int:
     """Let a force act on a segment during the next step; `acting` (9,) as in `Body.push`. Returns 0."""
     row = engine[8][engine[9][segment]]
-    x, y, z = _arm(acting[3] - acting[6]), _arm(acting[4] - acting[7]), _arm(acting[5] - acting[8])
-    a, b, c = float(np.float32(acting[0])), float(np.float32(acting[1])), float(np.float32(acting[2]))
-    row[0] += acting[0]
-    row[1] += acting[1]
-    row[2] += acting[2]
+    x, y, z = acting[3] - acting[6], acting[4] - acting[7], acting[5] - acting[8]
+    a, b, c = acting[0], acting[1], acting[2]
+    row[0] += a
+    row[1] += b
+    row[2] += c
     row[3] += y * c - z * b
     row[4] += z * a - x * c
     row[5] += x * b - y * a
     return 0
-
-
-@exactly
-def _arm(length: float) -> float:
-    # To a grid of 15 nm. With a force of 24 binary digits its product is exact, so that the torque has the same bits
-    # whether or not LLVM adds and multiplies in one instruction, about which it decides anew wherever this is inlined.
-    return float(floor(length * _GRID + 0.5) / _GRID)
 
 
 @exactly
