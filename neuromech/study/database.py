@@ -1,6 +1,7 @@
 """The studies in one database: a SQLite file, or a PostgreSQL server."""
 
 import sqlite3
+import time
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from functools import partial
@@ -12,6 +13,7 @@ from optuna.exceptions import DuplicatedStudyError, StorageInternalError
 from optuna.logging import WARNING, set_verbosity
 from optuna.storages import RDBStorage
 from optuna.study import StudyDirection
+from sqlalchemy import Engine, create_engine, inspect, text
 from sqlalchemy.engine import URL, make_url
 from sqlalchemy.exc import ArgumentError, SQLAlchemyError
 from sqlalchemy.pool import NullPool
@@ -23,6 +25,7 @@ from neuromech.study.storage import StoredStudy, reason, working
 HEADER = "neuromech"
 CONNECTION_SECONDS = 10
 LOCK_SECONDS = 60
+MAKING_SECONDS = 10
 
 _DRIVERS: Mapping[str, str] = MappingProxyType(
     {
@@ -54,10 +57,11 @@ class Database:
         if self._is_file and not (create or Path(self._url.database or "").is_file()):
             raise StudyError(f"{self.shown}: there is no such file. Hint: give the storage of 'neuromech optimize'")
         with _connecting(self.shown):
-            url = self._url.render_as_string(hide_password=False)
             # Who only looks, and may look often, keeps no connections.
-            pool = {} if create else {"poolclass": NullPool}
-            self._storage = RDBStorage(url, self._engine_arguments() | pool, skip_table_creation=not create)
+            made = self._made() if create else self._looked_at()
+        if made is None:
+            raise StudyError(f"{self.shown} holds no studies. Hint: give the storage of 'neuromech optimize'")
+        self._storage = made
 
     def __enter__(self) -> Self:
         return self
@@ -114,6 +118,34 @@ class Database:
             header = Header.from_dict(self._storage.get_study_user_attrs(number)[HEADER])
             return StoredStudy(self._storage, self.shown, number, header)
 
+    def _made(self) -> RDBStorage:
+        """Connect, and make the tables where there are none."""
+        if not self._has_tables():
+            self._make_tables()
+        return self._connected(create=True)
+
+    def _make_tables(self) -> None:
+        try:
+            self._connected(create=True, poolclass=NullPool)
+        except SQLAlchemyError:
+            # Another process may make them at the same moment.
+            until = time.monotonic() + MAKING_SECONDS
+            while not self._has_tables():
+                if time.monotonic() > until:
+                    raise
+                time.sleep(0.1)
+
+    def _looked_at(self) -> RDBStorage | None:
+        """Connect to what is there; Optuna itself would add tables that are missing, and get in the way of others."""
+        return self._connected(create=False, poolclass=NullPool) if self._has_tables() else None
+
+    def _connected(self, create: bool, **pool: Any) -> RDBStorage:
+        url = self._url.render_as_string(hide_password=False)
+        return RDBStorage(url, self._engine_arguments() | pool, skip_table_creation=not create)
+
+    def _has_tables(self) -> bool:
+        return _is_complete(create_engine(self._url, poolclass=NullPool, **self._engine_arguments()))
+
     def _engine_arguments(self) -> dict[str, Any]:
         if self._is_file:
             return {"creator": partial(_file, self._url.database or "")}
@@ -135,6 +167,14 @@ def _url(place: str) -> URL:
     if url.drivername not in _DRIVERS:
         raise StudyError(f"'{url.drivername}' is no database that studies are stored in. {_PLACES}")
     return url.set(drivername=_DRIVERS[url.drivername])
+
+
+def _is_complete(engine: Engine) -> bool:
+    """Return whether all of Optuna's tables are there; it names their version last."""
+    if not inspect(engine).has_table("alembic_version"):
+        return False
+    with engine.connect() as connection:
+        return connection.execute(text("SELECT version_num FROM alembic_version")).first() is not None
 
 
 def _file(path: str) -> sqlite3.Connection:

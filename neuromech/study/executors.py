@@ -20,7 +20,7 @@ from types import TracebackType
 from typing import Any, Generic, Self, TypeVar
 
 from neuromech.errors import NeuromechError
-from neuromech.study.tasks import Packed, call
+from neuromech.study.tasks import Packed, call, call_again
 
 Job = TypeVar("Job")
 Result = TypeVar("Result")
@@ -192,11 +192,11 @@ class ProcessExecutor(Executor):
     def _submit(self, packed: Packed, job: Any) -> Future[Any]:
         process = self._free.pop()
         try:
-            future = process.pool.submit(call, packed, job)
+            future = process.submit(packed, job)
         except BrokenProcessPool:
             # It died while it had nothing to do.
             process = _Process()
-            future = process.pool.submit(call, packed, job)
+            future = process.submit(packed, job)
         self._busy[future] = process
         return future
 
@@ -213,6 +213,15 @@ class _Process:
     def __init__(self) -> None:
         self.pool = ProcessPoolExecutor(1, mp_context=get_context("spawn"), initializer=_begin)
         self._number = self.pool.submit(os.getpid)
+        self._packed: Packed | None = None
+
+    def submit(self, packed: Packed, job: Any) -> Future[Any]:
+        """Hand out a job, and the task where it is not the one before."""
+        if packed is self._packed:
+            return self.pool.submit(call_again, job)
+        future = self.pool.submit(call, packed, job)
+        self._packed = packed
+        return future
 
     def kill(self) -> None:
         """End the process, whatever it does."""

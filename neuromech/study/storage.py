@@ -1,8 +1,8 @@
 """One study in a database, by Optuna; `optuna-dashboard` shows it.
 
 A study is a study of Optuna. Evaluation n is its trial n. The trials of a generation are made in one transaction before
-its first evaluation starts, and wait; each gets its results in one transaction. So a trial that does not wait any more
-is complete. The state of the algorithm is an attribute of the study, written as a whole after each generation.
+its first evaluation starts, and wait; each gets all its results in one transaction. So a trial that does not wait any
+more is complete. The state of the algorithm is an attribute of the study, written as a whole after each generation.
 
 Trials are written as rows of Optuna's tables: its own functions ask the database several times for each parameter,
 which may take longer than a simulation. Everything is read through them.
@@ -166,28 +166,27 @@ class StoredStudy:
             connection.execute(_NEW_ATTRIBUTES, rows)
         self._trials |= ids
 
-    def finish(self, evaluation: Evaluation) -> None:
-        """Store a complete evaluation that was begun, in one transaction.
+    def finish(self, evaluations: Sequence[Evaluation]) -> None:
+        """Store complete evaluations that were begun, in one transaction.
 
         Raises:
             StudyError: the database fails, or another process works on the study.
         """
-        number = self._trials[evaluation.number]
-        state = TrialState.FAIL if evaluation.score is None else TrialState.COMPLETE
-        now = datetime.now(UTC).replace(tzinfo=None)
-        values = {
-            "trial": number,
-            "state": state,
-            "datetime_start": now - timedelta(seconds=evaluation.wall_seconds),
-            "datetime_complete": now,
-        }
+        staged = bool(self.header.stages)
+        trials = [(self._trials[one.number], one) for one in evaluations]
+        values = [
+            {"trial_id": trial, "value": shown_value(one.score, staged), **_ONLY_OBJECTIVE}
+            for trial, one in trials
+            if one.score is not None
+        ]
         with working(self.place), self._storage.engine.begin() as connection:
-            if not connection.execute(_FINISHED, values).rowcount:
-                raise StudyError(_ELSEWHERE)
-            connection.execute(_NEW_ATTRIBUTES, _attribute_rows(number, _results(evaluation)))
-            if evaluation.score is not None:
-                value = shown_value(evaluation.score, bool(self.header.stages))
-                connection.execute(_NEW_VALUE, {"trial_id": number, "value": value, **_ONLY_OBJECTIVE})
+            for trial, one in trials:
+                if not connection.execute(_FINISHED, {"trial": trial, **_ending(one)}).rowcount:
+                    raise StudyError(_ELSEWHERE)
+            rows = [row for trial, one in trials for row in _attribute_rows(trial, _results(one))]
+            connection.execute(_NEW_ATTRIBUTES, rows)
+            if values:
+                connection.execute(_NEW_VALUE, values)
 
     def _after(self, connection: Connection, latest: int) -> list[tuple[int, int]]:
         """Return (number, id) of the trials of this study that were added after one, in order."""
@@ -226,6 +225,15 @@ def _results(evaluation: Evaluation) -> dict[str, Any]:
     """Return what `begin` did not know yet."""
     known = ("number", "generation", "index", "parameters", "confirms")
     return {name: value for name, value in evaluation.to_dict().items() if name not in known}
+
+
+def _ending(evaluation: Evaluation) -> dict[str, Any]:
+    now = datetime.now(UTC).replace(tzinfo=None)
+    return {
+        "state": TrialState.FAIL if evaluation.score is None else TrialState.COMPLETE,
+        "datetime_start": now - timedelta(seconds=evaluation.wall_seconds),
+        "datetime_complete": now,
+    }
 
 
 def _stored(trial: FrozenTrial) -> StoredTrial:

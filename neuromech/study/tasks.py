@@ -13,6 +13,8 @@ from neuromech.errors import StudyError
 PACKAGES = ("neuromech", "numpy", "numba")
 """What must be of the same version wherever evaluations run."""
 
+_latest: list[Callable[[Any], Any]] = []
+
 
 @dataclass(frozen=True, slots=True)
 class Packed:
@@ -33,7 +35,15 @@ def call(packed: Packed, job: Any) -> Any:
     Raises:
         StudyError: the packages there are others, which might give other numbers.
     """
-    return _unpacked(packed)(job)
+    task = _unpacked(packed)
+    _latest[:] = [task]
+    return task(job)
+
+
+def call_again(job: Any) -> Any:
+    """Call the task that this process was given last with another job: a packed task is large."""
+    (task,) = _latest
+    return task(job)
 
 
 @lru_cache(maxsize=4)

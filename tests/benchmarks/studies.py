@@ -26,7 +26,7 @@ from neuromech.study.storage import StoredStudy
 SPEC = Path(__file__).parents[2] / "specs" / "cat" / "suspended_tuning.yaml"
 ENGINES = ("pybullet", "mujoco")
 REPETITIONS = 6
-EVALUATIONS = 36
+EVALUATIONS = 120
 JOBS = 40
 JOB_SECONDS = 1.0
 

@@ -1,9 +1,11 @@
 """Recordings whose measures are known, and documents with a study."""
 
 import json
+from collections.abc import Iterator
 
 import numpy as np
 import pytest
+from postgresql import postgresql
 
 from neuromech.simulate.recording import GroupData, Outcome, Provenance, Recording
 
@@ -75,3 +77,10 @@ def record():
         return Recording.from_groups({"all": data}, origin)
 
     return make
+
+
+@pytest.fixture(scope="session")
+def server() -> Iterator[str]:
+    """The URL of a database on a PostgreSQL server of our own."""
+    with postgresql() as url:
+        yield url

@@ -1,15 +1,18 @@
 """A small study whose candidates are judged by a formula, and what runs it without processes."""
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future
+from functools import partialmethod
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pytest
 
 from neuromech.compiler.numerics import Floats
 from neuromech.pipeline import load_document
+from neuromech.study.database import Database
 from neuromech.study.driver import Search
 from neuromech.study.evaluation import Evaluation, Job, RunResult
 from neuromech.study.executors import Executor
@@ -140,3 +143,48 @@ def contents(stored: StoredStudy) -> list[dict[str, Any]]:
     return [
         {key: value for key, value in one.to_dict().items() if key != "wall_seconds"} for one in stored.evaluations()
     ]
+
+
+def begun(plan: Plan, folder: Path, name: str) -> StoredStudy:
+    return Database(str(folder / f"{name}.db")).create("study", plan.header)
+
+
+def reopened(folder: Path, name: str) -> StoredStudy:
+    return Database(str(folder / f"{name}.db")).open("study")
+
+
+class KilledError(BaseException):
+    """Ends a search between two writes, as `kill -9` may."""
+
+
+def goes_on_after_a_kill(
+    plan: Plan, folder: Path, task: Paraboloid, until: int, expected: Sequence[Mapping[str, Any]]
+) -> None:
+    """Kill a search after so many writes, and see that the next one gives the rest of what is expected."""
+    with pytest.MonkeyPatch.context() as monkeypatch:
+        stored = begun(plan, folder, "killed")
+        _let_write(monkeypatch, until)
+        with pytest.raises(KilledError):
+            searched(plan, stored, task)
+    kept = contents(reopened(folder, "killed"))
+    assert kept == expected[: len(kept)]
+    again = Paraboloid(plan.space, folder / "again", crashing=(5,))
+    assert searched(plan, reopened(folder, "killed"), again) == "complete"
+    assert contents(reopened(folder, "killed")) == expected
+    assert again.numbers() == list(range(len(kept), len(expected)))
+
+
+def _let_write(monkeypatch: pytest.MonkeyPatch, until: int) -> None:
+    """Let that many writes pass, where each evaluation is one; the next one, and all after it, do not take place."""
+    left = until
+
+    def guarded(self: StoredStudy, what: Any, *others: Any, original: Any, size: Callable[[Any], int]) -> None:
+        nonlocal left
+        left -= size(what)
+        if left < 0:
+            raise KilledError
+        original(self, what, *others)
+
+    for name, size in (("begin", lambda jobs: 1), ("finish", len), ("set_boundary", lambda boundary: 1)):
+        original = getattr(StoredStudy, name)
+        monkeypatch.setattr(StoredStudy, name, partialmethod(guarded, original=original, size=size))

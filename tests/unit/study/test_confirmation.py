@@ -7,8 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from searches import Inline, Paraboloid, contents, plan_in, searched
-from test_driver import KilledError, begun, reopened, writes
+from searches import Inline, Paraboloid, begun, contents, goes_on_after_a_kill, plan_in, reopened, searched
 
 from neuromech.cli.scores import evaluation_text
 from neuromech.study.algorithms.catalogue import AlgorithmCatalogue
@@ -84,17 +83,7 @@ def test_a_confirmation_that_was_stopped_goes_on(
 def test_a_confirmation_killed_between_any_two_writes_goes_on(
     until: int, plan: Plan, task: Paraboloid, expected: list[dict[str, Any]], tmp_path: Path
 ):
-    with pytest.MonkeyPatch.context() as monkeypatch:
-        stored = begun(plan, tmp_path, "killed")
-        writes(monkeypatch, until)
-        with pytest.raises(KilledError):
-            searched(plan, stored, task)
-    kept = contents(reopened(tmp_path, "killed"))
-    assert kept == expected[: len(kept)]
-    again = Paraboloid(plan.space, tmp_path / "again", crashing=(5,))
-    assert searched(plan, reopened(tmp_path, "killed"), again) == "complete"
-    assert contents(reopened(tmp_path, "killed")) == expected
-    assert again.numbers() == list(range(len(kept), len(expected)))
+    goes_on_after_a_kill(plan, tmp_path, task, until, expected)
 
 
 def test_executors_do_not_matter(plan: Plan, task: Paraboloid, expected: list[dict[str, Any]], tmp_path: Path):

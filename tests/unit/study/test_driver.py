@@ -5,15 +5,13 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from searches import Inline, Paraboloid, contents, plan_in, searched
+from searches import Inline, Paraboloid, begun, contents, goes_on_after_a_kill, plan_in, reopened, searched
 
 from neuromech.errors import RunError, StudyError
-from neuromech.study.database import Database
 from neuromech.study.driver import Search
 from neuromech.study.executors import ProcessExecutor
 from neuromech.study.plan import Plan
 from neuromech.study.progress import Standing
-from neuromech.study.storage import StoredStudy
 
 
 @pytest.fixture(scope="module")
@@ -24,14 +22,6 @@ def plan(tmp_path_factory: pytest.TempPathFactory) -> Plan:
 @pytest.fixture
 def task(plan: Plan, tmp_path: Path) -> Paraboloid:
     return Paraboloid(plan.space, tmp_path / "evaluated", crashing=(5,))
-
-
-def begun(plan: Plan, folder: Path, name: str) -> StoredStudy:
-    return Database(str(folder / f"{name}.db")).create("study", plan.header)
-
-
-def reopened(folder: Path, name: str) -> StoredStudy:
-    return Database(str(folder / f"{name}.db")).open("study")
 
 
 @pytest.fixture(scope="module")
@@ -78,39 +68,11 @@ def test_a_stopped_search_goes_on_as_if_it_had_not_been(
     assert task.numbers() == list(range(14))
 
 
-class KilledError(BaseException):
-    """Ends a search between two writes, as `kill -9` may."""
-
-
-def writes(monkeypatch: pytest.MonkeyPatch, until: int) -> None:
-    """Let that many writes pass; the next one, and all after it, do not take place."""
-    left = iter(range(until))
-    for name in ("begin", "finish", "set_boundary"):
-        original = getattr(StoredStudy, name)
-
-        def guarded(self: StoredStudy, *arguments: Any, original: Any = original) -> None:
-            if next(left, None) is None:
-                raise KilledError
-            original(self, *arguments)
-
-        monkeypatch.setattr(StoredStudy, name, guarded)
-
-
 @pytest.mark.parametrize("until", [0, 1, 2, 5, 6, 7, 9, 17, 20])
 def test_a_search_killed_between_any_two_writes_goes_on_as_if_it_had_not_been(
     until: int, plan: Plan, task: Paraboloid, expected: list[dict[str, Any]], tmp_path: Path
 ):
-    with pytest.MonkeyPatch.context() as monkeypatch:
-        stored = begun(plan, tmp_path, "killed")
-        writes(monkeypatch, until)
-        with pytest.raises(KilledError):
-            searched(plan, stored, task)
-    kept = contents(reopened(tmp_path, "killed"))
-    assert kept == expected[: len(kept)]
-    again = Paraboloid(plan.space, tmp_path / "again", crashing=(5,))
-    assert searched(plan, reopened(tmp_path, "killed"), again) == "complete"
-    assert contents(reopened(tmp_path, "killed")) == expected
-    assert again.numbers() == list(range(len(kept), 14))
+    goes_on_after_a_kill(plan, tmp_path, task, until, expected)
 
 
 def test_more_evaluations_later_are_the_same_as_at_once(

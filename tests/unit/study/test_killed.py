@@ -5,12 +5,10 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
-from postgresql import postgresql
 from searches import contents
 
 from neuromech.errors import StudyError
@@ -35,12 +33,6 @@ study:
         scale: 0.05 s
 """
 KILLS = 10
-
-
-@pytest.fixture(scope="module")
-def server() -> Iterator[str]:
-    with postgresql() as url:
-        yield url
 
 
 def command(folder: Path, storage: str, *options: str) -> "subprocess.Popen[bytes]":

@@ -1,12 +1,16 @@
 """What is stored: exact, readable by Optuna's own tools, and refused in words where it cannot be."""
 
 import sqlite3
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from threading import Barrier
 
 import numpy as np
 import optuna
 import pytest
 from searches import plan_in
+from sqlalchemy import Engine, create_engine, inspect, text
+from sqlalchemy.pool import NullPool
 
 from neuromech.errors import StudyError
 from neuromech.study.database import Database
@@ -40,7 +44,7 @@ def test_what_is_read_back_is_what_was_stored_to_the_last_bit(plan: Plan, tmp_pa
     given = [evaluation(plan, 0, Score(0, -AWKWARD)), evaluation(plan, 1, None)]
     for one in given:
         stored.begin([job(plan, one.number)], plan.space)
-        stored.finish(one)
+        stored.finish([one])
     stored.begin([job(plan, 2)], plan.space)
     boundary = Boundary(3, 12, {"points": [[AWKWARD]], "memory": {"velocity": [5e-324]}})
     stored.set_boundary(boundary)
@@ -58,7 +62,7 @@ def test_optuna_sees_parameters_with_bounds_and_failures_as_failures(plan: Plan,
     stored = Database(str(tmp_path / "a.db")).create("study", plan.header)
     for one in (evaluation(plan, 0, Score(0, -2.5)), evaluation(plan, 1, Score(0, -1.5)), evaluation(plan, 2, None)):
         stored.begin([job(plan, one.number)], plan.space)
-        stored.finish(one)
+        stored.finish([one])
     stored.begin([job(plan, 3)], plan.space)
     study = optuna.load_study(study_name="study", storage=f"sqlite:///{tmp_path / 'a.db'}")
     assert [trial.state.name for trial in study.trials] == ["COMPLETE", "COMPLETE", "FAIL", "WAITING"]
@@ -107,9 +111,9 @@ def test_evaluations_of_another_process_are_noticed(plan: Plan, tmp_path: Path):
     with pytest.raises(StudyError, match="another process"):
         second.begin([job(plan, 0)], plan.space)
     second.trials()
-    first.finish(evaluation(plan, 0, Score(0, 1.0)))
+    first.finish([evaluation(plan, 0, Score(0, 1.0))])
     with pytest.raises(StudyError, match="another process"):
-        second.finish(evaluation(plan, 0, Score(0, 1.0)))
+        second.finish([evaluation(plan, 0, Score(0, 1.0))])
     assert len(first.trials()) == 1
 
 
@@ -138,6 +142,46 @@ def test_a_file_of_something_else_is_refused_and_left_alone(tmp_path: Path):
     with pytest.raises(StudyError, match="there is no such file"):
         Database(str(tmp_path / "absent.db"), create=False)
     assert not (tmp_path / "absent.db").exists()
+
+
+@pytest.mark.parametrize("place", ["file", "server"])
+def test_processes_may_begin_in_a_new_database_and_look_at_it_at_the_same_moment(
+    place: str, server: str, tmp_path: Path
+):
+    for number in range(3):
+        url = str(tmp_path / f"{number}.db") if place == "file" else _new_database(server, f"new{number}")
+        together = Barrier(8)
+
+        def use(one: int, url: str = url, together: Barrier = together) -> list[str]:
+            together.wait()
+            try:
+                with Database(url, create=one % 2 == 0) as database:
+                    return database.names()
+            except StudyError as error:
+                assert one % 2, error
+                assert "holds no studies" in str(error) or "there is no such file" in str(error)
+                return []
+
+        with ThreadPoolExecutor(8) as pool:
+            assert list(pool.map(use, range(8))) == [[]] * 8
+
+
+def test_who_looks_makes_no_tables(server: str):
+    url = _new_database(server, "empty")
+    with pytest.raises(StudyError, match="empty holds no studies"):
+        Database(url, create=False)
+    assert inspect(_engine(url)).get_table_names() == []
+
+
+def _new_database(server: str, name: str) -> str:
+    with _engine(server).connect() as connection:
+        connection.execute(text(f"CREATE DATABASE {name}"))
+    return f"{server.rpartition('/')[0]}/{name}"
+
+
+def _engine(url: str) -> Engine:
+    address = url.replace("postgresql:", "postgresql+psycopg:")
+    return create_engine(address, poolclass=NullPool, isolation_level="AUTOCOMMIT")
 
 
 def test_a_database_that_fails_says_what_is_safe(plan: Plan, tmp_path: Path):
