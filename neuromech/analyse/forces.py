@@ -20,6 +20,8 @@ def ground_reaction_peak(view: View) -> float:
     """Return the peak of the filtered vertical force in stance, in body weights: mean of stances, mean of the `feet`.
 
     The filter is dF/dt = 100 1/s (f − F) (Dzeladini 2013 eq. 2.34), exact for a force that is linear between samples.
+    With `average_over` it is a moving average over this time instead; 100 ms are order 100 at steps of 1 ms, which is
+    what the caption of its figure 3.3 says.
     """
     return _peak(view, lambda start, end: (start, end))
 
@@ -38,13 +40,13 @@ def force_humps(view: View) -> float:
     """Return how many humps the filtered vertical force has in a stance: mean of stances, mean of the `feet`.
 
     A hump stands out by at least a twentieth of the body's weight from what lies between it and a higher one. The
-    filter is that of `ground_reaction_peak`; with `average_over` it is a moving average over this time instead.
+    filter is that of `ground_reaction_peak`, also with `average_over`.
     """
     counts = []
     for foot in footfalls(view):
         strides = foot.strides()
         time, load = view.load(foot.name)
-        smooth = filtered(time, load) if view.spec.average_over is None else _averaged(view, time, load)
+        smooth = _smooth(view, time, load)
         starts, ends = (np.searchsorted(time, times) for times in (strides.cycles.onsets[:-1], strides.liftoffs))
         least = HUMP * view.weight()
         counts.append(np.mean([_humps(smooth[start:end], least) for start, end in zip(starts, ends, strict=True)]))
@@ -54,6 +56,11 @@ def force_humps(view: View) -> float:
 def _humps(load: Array, least: float) -> int:
     surrounded = np.concatenate(([0.0], load, [0.0]))
     return len(find_peaks(surrounded, prominence=least)[0])
+
+
+def _smooth(view: View, time: Array, load: Array) -> Array:
+    """Return a force after the filter that the measure asks for, shape (n,)."""
+    return filtered(time, load) if view.spec.average_over is None else _averaged(view, time, load)
 
 
 def _averaged(view: View, time: Array, load: Array) -> Array:
@@ -78,7 +85,7 @@ def _peak(view: View, part: Callable[[Array, Array], tuple[Array, Array]]) -> fl
     for foot in footfalls(view):
         strides = foot.strides()
         time, load = view.load(foot.name)
-        smooth = filtered(time, load)
+        smooth = _smooth(view, time, load)
         starts, ends = np.searchsorted(time, part(strides.cycles.onsets[:-1], strides.liftoffs))
         peaks.append(
             np.mean([smooth[start : max(end, start + 1)].max() for start, end in zip(starts, ends, strict=True)])

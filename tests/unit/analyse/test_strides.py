@@ -249,6 +249,16 @@ def test_a_load_with_two_humps_has_two_peaks(record, time):
     assert second < first - 0.05
 
 
+@pytest.mark.parametrize("kind", ["ground_reaction_peak", "loading_peak", "push_off_peak"])
+def test_an_average_over_a_whole_oscillation_of_a_force_has_its_mean_as_peak(record, time, kind):
+    phase = (time / 1.0) % 1.0
+    load = np.where(phase < 0.6, 800.0 + 400.0 * np.sin(2 * np.pi * phase / 0.1), 0.0)
+    recording = record({"L.foot.force_z": (load, "N")}, anatomy=Anatomy(80.0, 9.81, {}))
+    assert take(recording, kind=kind, feet=["L.foot"]).value * 80.0 * 9.81 > 1000.0
+    found = take(recording, kind=kind, feet=["L.foot"], average_over="100 ms").value
+    assert found * 80.0 * 9.81 == pytest.approx(800.0, rel=0.02)
+
+
 @pytest.mark.parametrize("humps", [1, 2, 3])
 def test_humps_of_a_force_are_counted_and_an_average_over_them_has_one(record, time, humps):
     phase = (time / 1.0) % 1.0
