@@ -19,7 +19,7 @@ from numba.extending import intrinsic
 from neuromech.compiler.memory import NOTHING_COUNTED
 
 # Adding this to a number smaller than 2⁵¹ leaves its nearest whole number in the lowest bits of the sum.
-_ROUNDER = 6755399441055744.0
+ROUNDER = 6755399441055744.0
 _LOG2_E = 1.4426950408889634
 _LN2_HIGH = 0.693147180369123816490
 _LN2_LOW = 1.90821492927058770002e-10
@@ -28,7 +28,7 @@ _EXPONENT_BITS = 52
 _EXPONENT_BIAS = 1023
 _MANTISSA_MASK = (1 << _EXPONENT_BITS) - 1
 _ONE_BITS = _EXPONENT_BIAS << _EXPONENT_BITS
-_ROUNDER_BITS = struct.unpack("<q", struct.pack("<d", _ROUNDER))[0]
+_ROUNDER_BITS = struct.unpack("<q", struct.pack("<d", ROUNDER))[0]
 _SQRT_2 = 1.4142135623730951
 
 
@@ -45,7 +45,7 @@ def _reinterpreted(result: Any, argument: Any, kind: Any) -> Any:
     return reinterpret
 
 
-_bits = _reinterpreted(types.int64, types.float64, ir.IntType(64))
+bits = _reinterpreted(types.int64, types.float64, ir.IntType(64))
 _from_bits = _reinterpreted(types.float64, types.int64, ir.DoubleType())
 
 
@@ -59,8 +59,8 @@ def _inlined(function: Callable[[float], float]) -> Any:
 def exp(x: float) -> float:
     """Return e to the power of x."""
     cut = min(max(x, -_LARGEST), _LARGEST)
-    shifted = cut * _LOG2_E + _ROUNDER
-    n = shifted - _ROUNDER
+    shifted = cut * _LOG2_E + ROUNDER
+    n = shifted - ROUNDER
     r = (cut - n * _LN2_HIGH) - n * _LN2_LOW
     q = 1.0 / 479001600.0
     q = q * r + 1.0 / 39916800.0
@@ -75,7 +75,7 @@ def exp(x: float) -> float:
     q = q * r + 0.5
     q = q * r + 1.0
     q = q * r + 1.0
-    return q * float(_from_bits((_bits(shifted) + _EXPONENT_BIAS) << _EXPONENT_BITS))
+    return q * float(_from_bits((bits(shifted) + _EXPONENT_BIAS) << _EXPONENT_BITS))
 
 
 # exp(x) − 1 = 2ⁿ (exp(r) − 1) + (2ⁿ − 1): for small x n is zero, and nothing cancels.
@@ -83,8 +83,8 @@ def exp(x: float) -> float:
 def expm1(x: float) -> float:
     """Return e to the power of x, minus one."""
     cut = min(max(x, -_LARGEST), _LARGEST)
-    shifted = cut * _LOG2_E + _ROUNDER
-    n = shifted - _ROUNDER
+    shifted = cut * _LOG2_E + ROUNDER
+    n = shifted - ROUNDER
     r = (cut - n * _LN2_HIGH) - n * _LN2_LOW
     q = 1.0 / 479001600.0
     q = q * r + 1.0 / 39916800.0
@@ -98,17 +98,17 @@ def expm1(x: float) -> float:
     q = q * r + 1.0 / 6.0
     q = q * r + 0.5
     q = q * r + 1.0
-    power = float(_from_bits((_bits(shifted) + _EXPONENT_BIAS) << _EXPONENT_BITS))
+    power = float(_from_bits((bits(shifted) + _EXPONENT_BIAS) << _EXPONENT_BITS))
     return power * (q * r) + (power - 1.0)
 
 
 @_inlined
 def log(x: float) -> float:
     """Return the natural logarithm of x; not a number for a negative x, and −708 or less for zero."""
-    bits = _bits(x)
-    mantissa = float(_from_bits((bits & _MANTISSA_MASK) | _ONE_BITS))
+    pattern = bits(x)
+    mantissa = float(_from_bits((pattern & _MANTISSA_MASK) | _ONE_BITS))
     # The exponent is put into the low bits of the rounder, which turns it into a float by one subtraction.
-    exponent = float(_from_bits((bits >> _EXPONENT_BITS) + _ROUNDER_BITS)) - (_ROUNDER + _EXPONENT_BIAS)
+    exponent = float(_from_bits((pattern >> _EXPONENT_BITS) + _ROUNDER_BITS)) - (ROUNDER + _EXPONENT_BIAS)
     large = mantissa > _SQRT_2
     mantissa = 0.5 * mantissa if large else mantissa
     exponent = exponent + 1.0 if large else exponent

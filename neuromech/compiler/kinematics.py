@@ -1,8 +1,9 @@
 """Positions and velocities of the segments of a tree. Compiled, without allocation, callable from compiled code."""
 
-from math import asin, atan2, cos, sin
+from math import asin, atan2
 
 from neuromech.compiler.numerics import Floats, Integers, exactly
+from neuromech.compiler.sines import sine_and_cosine
 from neuromech.compiler.tree import AXIS, HINGE, JOINT, KIND, PARENT, POSITION
 
 
@@ -23,15 +24,18 @@ def forward_kinematics(
     quaternion_rotation(root_pose[3], root_pose[4], root_pose[5], root_pose[6], rotation[0])
     for k in range(3):
         position[0, k] = root_pose[k]
+    # All at once; they stand where the positions will be.
+    for i in range(1, topology.shape[0]):
+        position[i, 0], position[i, 1] = sine_and_cosine(angles[topology[i, JOINT]])
     for i in range(1, topology.shape[0]):
         parent = topology[i, PARENT]
-        angle = angles[topology[i, JOINT]]
         shift = 0.0
         if topology[i, KIND] == HINGE:
-            _turn(rotation[parent], geometry[i, AXIS], geometry[i, AXIS + 1], geometry[i, AXIS + 2], angle, rotation[i])
+            a, b, c = geometry[i, AXIS], geometry[i, AXIS + 1], geometry[i, AXIS + 2]
+            _turn(rotation[parent], a, b, c, position[i, 0], position[i, 1], rotation[i])
         else:
-            _turn(rotation[parent], 1.0, 0.0, 0.0, 0.0, rotation[i])
-            shift = angle
+            _turn(rotation[parent], 1.0, 0.0, 0.0, 0.0, 1.0, rotation[i])
+            shift = angles[topology[i, JOINT]]
         x = geometry[i, POSITION] + shift * geometry[i, AXIS]
         y = geometry[i, POSITION + 1] + shift * geometry[i, AXIS + 1]
         z = geometry[i, POSITION + 2] + shift * geometry[i, AXIS + 2]
@@ -131,10 +135,8 @@ def world_axis(geometry: Floats, rotation: Floats, segment: int, k: int) -> floa
 
 
 @exactly
-def _turn(parent: Floats, x: float, y: float, z: float, angle: float, rotation: Floats) -> None:
-    # Rodrigues' formula, multiplied onto the parent's orientation.
-    c = cos(angle)
-    s = sin(angle)
+def _turn(parent: Floats, x: float, y: float, z: float, s: float, c: float, rotation: Floats) -> None:
+    # Rodrigues' formula with sine and cosine of the angle, multiplied onto the parent's orientation.
     d = 1.0 - c
     for k in range(3):
         a = parent[k, 0]
