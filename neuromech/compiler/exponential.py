@@ -49,15 +49,15 @@ bits = _reinterpreted(types.int64, types.float64, ir.IntType(64))
 _from_bits = _reinterpreted(types.float64, types.int64, ir.DoubleType())
 
 
-def _inlined(function: Callable[[float], float]) -> Any:
+def _inlined(function: Callable[[float], Any]) -> Any:
     # Sums must not be reordered here: adding and subtracting the rounder is the point.
     options = {**NOTHING_COUNTED, "forceinline": True}
     return numba.njit(nogil=True, error_model="numpy", fastmath={"contract"}, **options)(function)
 
 
 @_inlined
-def exp(x: float) -> float:
-    """Return e to the power of x."""
+def _parts(x: float) -> tuple[float, float]:
+    """Return exp(r) − 1 and 2ⁿ of x = n ln 2 + r."""
     cut = min(max(x, -_LARGEST), _LARGEST)
     shifted = cut * _LOG2_E + ROUNDER
     n = shifted - ROUNDER
@@ -74,32 +74,22 @@ def exp(x: float) -> float:
     q = q * r + 1.0 / 6.0
     q = q * r + 0.5
     q = q * r + 1.0
-    q = q * r + 1.0
-    return q * float(_from_bits((bits(shifted) + _EXPONENT_BIAS) << _EXPONENT_BITS))
+    return q * r, float(_from_bits((bits(shifted) + _EXPONENT_BIAS) << _EXPONENT_BITS))
+
+
+@_inlined
+def exp(x: float) -> float:
+    """Return e to the power of x."""
+    rest, power = _parts(x)
+    return float((rest + 1.0) * power)
 
 
 # exp(x) − 1 = 2ⁿ (exp(r) − 1) + (2ⁿ − 1): for small x n is zero, and nothing cancels.
 @_inlined
 def expm1(x: float) -> float:
     """Return e to the power of x, minus one."""
-    cut = min(max(x, -_LARGEST), _LARGEST)
-    shifted = cut * _LOG2_E + ROUNDER
-    n = shifted - ROUNDER
-    r = (cut - n * _LN2_HIGH) - n * _LN2_LOW
-    q = 1.0 / 479001600.0
-    q = q * r + 1.0 / 39916800.0
-    q = q * r + 1.0 / 3628800.0
-    q = q * r + 1.0 / 362880.0
-    q = q * r + 1.0 / 40320.0
-    q = q * r + 1.0 / 5040.0
-    q = q * r + 1.0 / 720.0
-    q = q * r + 1.0 / 120.0
-    q = q * r + 1.0 / 24.0
-    q = q * r + 1.0 / 6.0
-    q = q * r + 0.5
-    q = q * r + 1.0
-    power = float(_from_bits((bits(shifted) + _EXPONENT_BIAS) << _EXPONENT_BITS))
-    return power * (q * r) + (power - 1.0)
+    rest, power = _parts(x)
+    return float(power * rest + (power - 1.0))
 
 
 @_inlined

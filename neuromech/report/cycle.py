@@ -9,7 +9,7 @@ from neuromech.analyse.cycles import Cycles
 from neuromech.report.joints import joint_angles
 from neuromech.report.layout import BLUE, RED, NotDrawableError, axis_label, by_scope, grid, rhythm_of, title, trace
 from neuromech.report.references import Reference, references
-from neuromech.report.steps import feet, last_cycles, strides_of
+from neuromech.report.steps import feet_if_any, last_cycles, strides_of
 from neuromech.simulate.recording import Recording
 
 AVERAGED_CYCLES = 10
@@ -51,7 +51,7 @@ def activation_figure(recording: Recording) -> Figure:
 def _over_cycle(recording: Recording, scopes: dict[str, list[str]], lacking: str) -> Figure:
     if not scopes:
         raise NotDrawableError(lacking)
-    contacts = _contacts(recording)
+    contacts = feet_if_any(recording)
     found = {scope: _cycles(recording, scope, contacts.get(scope)) for scope in scopes}
     legs = {scope: cycles for scope, cycles in found.items() if cycles is not None}
     if not legs:
@@ -71,13 +71,6 @@ def _over_cycle(recording: Recording, scopes: dict[str, list[str]], lacking: str
         axes[len(scopes[scope]) - 1][column].set_xlabel(f"% of cycle from\n{start}")
     _legend(figure)
     return figure
-
-
-def _contacts(recording: Recording) -> dict[str, Footfalls]:
-    try:
-        return feet(recording)
-    except NotDrawableError:
-        return {}
 
 
 def _cycles(recording: Recording, scope: str, foot: Footfalls | None) -> tuple[Cycles, str] | None:

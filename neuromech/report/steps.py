@@ -39,6 +39,14 @@ def feet(recording: Recording) -> dict[str, Footfalls]:
     return found
 
 
+def feet_if_any(recording: Recording) -> dict[str, Footfalls]:
+    """Return the footfalls of all feet, none where nothing is known of them."""
+    try:
+        return feet(recording)
+    except NotDrawableError:
+        return {}
+
+
 def foot_patterns(recording: Recording) -> dict[str, str]:
     """Return {leg: pattern of the contacts of its foot}; a contact in no scope is a foot of its own."""
     found: dict[str, str] = {}

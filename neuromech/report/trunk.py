@@ -2,9 +2,8 @@
 
 from matplotlib.figure import Figure
 
-from neuromech.analyse.contacts import Footfalls
 from neuromech.report.layout import BLUE, RED, NotDrawableError, grid, recent, root_of, trace
-from neuromech.report.steps import draw_contacts, feet
+from neuromech.report.steps import draw_contacts, feet_if_any
 from neuromech.simulate.recording import Recording
 
 
@@ -20,7 +19,7 @@ def inclination_figure(recording: Recording) -> Figure:
     if not root:
         raise NotDrawableError("roll and pitch of the root are not recorded")
     start, end = recent(recording)
-    contacts = _contacts(recording)
+    contacts = feet_if_any(recording)
     rows = 2 if contacts else 1
     options = {"height_ratios": [2.2, 1.0]} if contacts else {}
     figure, axes = grid(rows, 1, 6.5, 2.4 / rows + 0.5, sharex=True, **options)
@@ -37,10 +36,3 @@ def inclination_figure(recording: Recording) -> Figure:
     axes[-1][0].set_xlim(start, end)
     axes[-1][0].set_xlabel("time (s)")
     return figure
-
-
-def _contacts(recording: Recording) -> dict[str, Footfalls]:
-    try:
-        return feet(recording)
-    except NotDrawableError:
-        return {}
