@@ -1,0 +1,47 @@
+"""How many evaluations, and how much processor time, the searches of the cat take to the first walk of 10 s.
+
+A walk is one of 10 s and 3 m in all runs on level ground. The searches are those of `specs/cat/tuning_thesis.yaml`
+(real-coded genetic algorithm, equation 15 of Habu 2020) and `specs/cat/tuning.yaml` (CMA-ES, several worlds), both in
+MuJoCo and with runs of 10 s, each with seeds of its own. Each gives one line of JSON, and all of them the medians.
+
+    python tests/benchmarks/first_walk.py tuning_thesis 0 5 3000
+"""
+
+import sys
+from pathlib import Path
+
+from reaching import Goal, reached, report
+
+from neuromech.study.evaluate import Evaluator
+from neuromech.study.evaluation import Evaluation
+from neuromech.study.plan import Plan
+
+CAT = Path(__file__).parents[2] / "specs" / "cat"
+SECONDS, METRES = 10.0, 3.0
+LEVEL = ("", "flat", "level")
+WAY = "{measure: {kind: distance, segment: trunk}, goal: maximize, scale: 1 m, worst: -1, weight: 1e-9}"
+
+
+def walks(evaluation: Evaluation) -> bool:
+    """Return whether a candidate walks in each of its runs on level ground."""
+    runs = [run for run in evaluation.runs if run.scenario in LEVEL]
+    ways = [run.measures["way"] for run in runs]
+    return bool(runs) and all(
+        run.kind == "finished" and isinstance(way, float) and way >= METRES for run, way in zip(runs, ways, strict=True)
+    )
+
+
+def main() -> None:
+    """Search with one of the documents and each of some seeds, up to a number of evaluations."""
+    name, first, last, most = sys.argv[1], int(sys.argv[2]), int(sys.argv[3]), int(sys.argv[4])
+    changes = ["body.engine=mujoco", f"study.duration={SECONDS} s", f"study.evaluations={most}"]
+    evaluator = Evaluator(
+        CAT / f"{name}.yaml", changes if name == "tuning" else [*changes, f"study.objective.terms.way={WAY}"]
+    )
+    evaluator.prepare()
+    goals = [Goal(f"{SECONDS:g} s, {METRES:g} m", walks)]
+    report(name, goals, (reached(evaluator, Plan.of(evaluator.document), seed, goals) for seed in range(first, last)))
+
+
+if __name__ == "__main__":
+    main()
