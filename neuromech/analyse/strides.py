@@ -73,6 +73,22 @@ def _in_the_air(foot: Footfalls, other: Footfalls) -> list[float]:
     return [float(gap) for gap in foot.touchdowns[known] - contacts[last[known], 1]]
 
 
+def running_time(view: View) -> float:
+    """Return how long two feet run (s): until one lands beside the other, or twice in a row, or the end.
+
+    From `after` to the first touchdown while the other foot is loaded, or the first with no touchdown of the other one
+    since the last. Also of a run that ended early, up to its end.
+    """
+    feet = footfalls(view)
+    contacts = np.concatenate([foot.contacts for foot in feet])
+    sides = np.repeat(np.arange(len(feet)), [len(foot.contacts) for foot in feet])
+    order = np.argsort(contacts[:, 0], kind="stable")
+    contacts, sides = contacts[order], sides[order]
+    walks = (contacts[1:, 0] <= contacts[:-1, 1]) | (sides[1:] == sides[:-1])
+    end = contacts[1:][walks][0, 0] if walks.any() else feet[0].end
+    return float(end - feet[0].start)
+
+
 def stance_asymmetry(view: View) -> float:
     """Return |a − b| / ((a + b) / 2) of the median stance durations of two `feet`: 0 where they are equal, at most 2.
 

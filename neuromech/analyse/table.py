@@ -53,6 +53,7 @@ from neuromech.analyse.strides import (
     flight_duration,
     fraction_in_stance,
     period_ratio,
+    running_time,
     stance_asymmetry,
     stance_duration,
     swing_duration,
@@ -117,6 +118,7 @@ _STRIDES = {
     "duty_factor": MeasureKind(duty_factor, "number", ("feet",), least=0.0, most=1.0),
     "double_support_duration": MeasureKind(double_support_duration, "time", ("feet",), feet=2, least=0.0),
     "flight_duration": MeasureKind(flight_duration, "time", ("feet",), feet=2),
+    "running_time": MeasureKind(running_time, "time", ("feet",), feet=2, of_early_end=True, least=0.0),
     "stance_asymmetry": MeasureKind(stance_asymmetry, "number", ("feet",), feet=2, least=0.0, most=2.0),
     "period_ratio": MeasureKind(
         period_ratio, "number", ("signals or feet",), ("least_amplitude",), feet=2, signals=2, least=0.0

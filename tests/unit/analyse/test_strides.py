@@ -175,6 +175,21 @@ def test_flight_is_that_of_the_shortest_step(feet):
     assert take(recording, kind="flight_duration", **of("LF", "RF")).value == expected
 
 
+def test_feet_run_until_one_touches_down_beside_the_other(record, burst, time):
+    left, right = burst(PERIOD, 0.0, 0.3, PEAK), burst(PERIOD, 0.5, 0.3, PEAK)
+    rise, _ = edges(duty=0.3)
+    walked = np.where(time < 6.0 * PERIOD, right, burst(PERIOD, 0.2, 0.3, PEAK))
+    hopped = np.where(time < 6.0 * PERIOD, right, 0.0)
+    for other, expected in ((right, time[-1]), (walked, (6.2 + rise) * PERIOD), (hopped, (7.0 + rise) * PERIOD)):
+        recording = record({"LF.foot.force_z": (left, "N"), "RF.foot.force_z": (other, "N")})
+        assert take(recording, kind="running_time", **of("LF", "RF")).value == pytest.approx(expected, abs=1e-4)
+
+
+def test_feet_that_never_touch_the_ground_run_to_the_end(record, time):
+    recording = record({f"{leg}.foot.force_z": (np.zeros(len(time)), "N") for leg in ("LF", "RF")})
+    assert take(recording, kind="running_time", **of("LF", "RF")).value == time[-1]
+
+
 def test_asymmetry_of_stance(record, burst):
     recording = record(
         {f"{leg}.foot.force_z": (burst(PERIOD, 0.0, duty, PEAK), "N") for leg, duty in (("L", 0.5), ("R", 0.7))}
