@@ -1,10 +1,12 @@
 """How many evaluations, and how much processor time, the searches of the cat take to the first walk of 10 s.
 
 A walk is one of 10 s and 3 m in all runs on level ground. The searches are those of `specs/cat/tuning_thesis.yaml`
-(real-coded genetic algorithm, equation 15 of Habu 2020) and `specs/cat/tuning.yaml` (CMA-ES, several worlds), both in
-MuJoCo and with runs of 10 s, each with seeds of its own. Each gives one line of JSON, and all of them the medians.
+(real-coded genetic algorithm, equation 15 of Habu 2020) and `specs/cat/tuning.yaml` (CMA-ES, several worlds), or the first
+with another algorithm, in MuJoCo and with runs of 10 s, each with seeds of its own. Each gives one line of JSON, and all of
+them the medians.
 
     python tests/benchmarks/first_walk.py tuning_thesis 0 5 3000
+    python tests/benchmarks/first_walk.py tuning_thesis 0 5 3000 '{kind: cma_es, covariance: separable, population: 20}'
 """
 
 import sys
@@ -32,9 +34,10 @@ def walks(evaluation: Evaluation) -> bool:
 
 
 def main() -> None:
-    """Search with one of the documents and each of some seeds, up to a number of evaluations."""
+    """Search with one of the documents, each of some seeds and perhaps an algorithm, up to a number of evaluations."""
     name, first, last, most = sys.argv[1], int(sys.argv[2]), int(sys.argv[3]), int(sys.argv[4])
     changes = ["body.engine=mujoco", f"study.duration={SECONDS} s", f"study.evaluations={most}"]
+    changes += [f"study.algorithm={words}" for words in sys.argv[5:]]
     evaluator = Evaluator(
         CAT / f"{name}.yaml", changes if name == "tuning" else [*changes, f"study.objective.terms.way={WAY}"]
     )
