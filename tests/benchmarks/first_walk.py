@@ -1,9 +1,9 @@
 """How many evaluations, and how much processor time, the searches of the cat take to the first walk of 10 s.
 
 A walk is one of 10 s and 3 m in all runs on level ground. The searches are those of `specs/cat/tuning_thesis.yaml`
-(real-coded genetic algorithm, equation 15 of Habu 2020) and `specs/cat/tuning.yaml` (CMA-ES, several worlds), or the first
-with another algorithm, in MuJoCo and with runs of 10 s, each with seeds of its own. Each gives one line of JSON, and all of
-them the medians.
+(real-coded genetic algorithm, equation 15 of Habu 2020) and `specs/cat/tuning.yaml` (CMA-ES, several worlds), or the
+first with another algorithm, in MuJoCo and with runs of 10 s, each with seeds of its own. Each gives one line of JSON,
+and all of them the medians.
 
     python tests/benchmarks/first_walk.py tuning_thesis 0 5 3000
     python tests/benchmarks/first_walk.py tuning_thesis 0 5 3000 '{kind: cma_es, covariance: separable, population: 20}'
