@@ -71,7 +71,7 @@ def shuffled(value, random):
     return value
 
 
-@settings(max_examples=10, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=10, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(st.randoms(use_true_random=False))
 def test_the_order_of_the_document_does_not_change_the_graph(raw, random):
     one = build(to_document(raw))

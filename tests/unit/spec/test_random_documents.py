@@ -96,7 +96,7 @@ def test_random_yaml_punctuation(path, text):
     _load(path, text.encode())
 
 
-@settings(max_examples=150, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=150, suppress_health_check=[HealthCheck.too_slow])
 @given(st.lists(st.tuples(st.sampled_from(TOKENS), FRAGMENTS), min_size=1, max_size=3))
 def test_random_changes_of_a_valid_document(path, changes):
     text = HALF_CENTRE
@@ -105,14 +105,14 @@ def test_random_changes_of_a_valid_document(path, changes):
     _load(path, text.encode())
 
 
-@settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=60, suppress_health_check=[HealthCheck.too_slow])
 @given(st.integers(0, len(HALF_CENTRE)), st.integers(0, 80), st.binary(max_size=4))
 def test_random_bytes_inside_a_valid_document(path, start, length, content):
     valid = HALF_CENTRE.encode()
     _load(path, valid[:start] + content + valid[start + length :])
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(st.text(max_size=40))
 def test_random_overrides(path, text):
     path.write_text(HALF_CENTRE)
