@@ -122,7 +122,7 @@ class Database:
         """Connect, and make the tables where there are none."""
         if not self._has_tables():
             self._make_tables()
-        return self._connected(create=True)
+        return self._connected(create=False)
 
     def _make_tables(self) -> None:
         try:

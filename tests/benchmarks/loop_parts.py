@@ -51,7 +51,7 @@ def timed_loop(program: Program, native: str) -> Any:
     joints, start, place = module.JOINTS, module.BODY, module.TORQUE
 
     @numba.njit(nogil=True)
-    def loop(count, dt, x, s, u, p, F, integers, R, T, D, world, found):  # type: ignore[no-untyped-def]
+    def loop(count, dt, x, s, u, p, F, integers, R, T, D, world, found):
         first, last = integers[start], integers[place]
         state, torque = s[first:last], s[last : last + integers[joints]]
         for number in range(count):
