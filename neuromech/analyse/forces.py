@@ -1,10 +1,11 @@
-"""Measures of the force that the ground exerts."""
+"""Measures of the force that the ground exerts.
+
+SciPy's filters take a second to import, so that only a measure that needs them does.
+"""
 
 from collections.abc import Callable
 
 import numpy as np
-from scipy.ndimage import uniform_filter1d
-from scipy.signal import find_peaks, lfilter
 
 from neuromech.analyse.contacts import footfalls
 from neuromech.analyse.windows import Array, View
@@ -54,6 +55,8 @@ def force_humps(view: View) -> float:
 
 
 def _humps(load: Array, least: float) -> int:
+    from scipy.signal import find_peaks
+
     surrounded = np.concatenate(([0.0], load, [0.0]))
     return len(find_peaks(surrounded, prominence=least)[0])
 
@@ -65,12 +68,16 @@ def _smooth(view: View, time: Array, load: Array) -> Array:
 
 def _averaged(view: View, time: Array, load: Array) -> Array:
     """Return a moving average of a force, samples at one rate, shape (n,)."""
+    from scipy.ndimage import uniform_filter1d
+
     step = float(time[-1] - time[0]) / (len(time) - 1)
     return np.asarray(uniform_filter1d(load, max(1, round(view.number("average_over") / step))))
 
 
 def filtered(time: Array, load: Array) -> Array:
     """Return a force after the filter dF/dt = 100 1/s (f − F), from F = f on; samples at one rate, shape (n,)."""
+    from scipy.signal import lfilter
+
     step = FILTER_RATE * float(time[-1] - time[0]) / (len(time) - 1)
     decay = np.exp(-step)
     mean = (1.0 - decay) / step

@@ -1,10 +1,9 @@
-"""SciPy's solvers through the same compiled derivative as the fixed-step methods."""
+"""SciPy's solvers through the same compiled derivative as the fixed-step methods; imported when one is asked for."""
 
 from collections.abc import Callable
 from math import ceil
 
 import numpy as np
-from scipy.integrate import solve_ivp
 
 from neuromech.compiler.numerics import Floats
 from neuromech.compiler.program import Memory, Program
@@ -34,6 +33,8 @@ def integrate(program: Program, memory: Memory, start: float, end: float, times:
     Raises:
         RunError: the solver gave up; its message is passed on.
     """
+    from scipy.integrate import solve_ivp
+
     solver = program.graph.document.experiment.solver
     inner = np.empty(0) if times is None else np.clip(times, start, end)
     # Steps that are tried and refused may overflow.

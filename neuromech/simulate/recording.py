@@ -4,16 +4,18 @@ import json
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 from functools import cached_property
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
-import xarray as xr
 from numpy.typing import NDArray
 
 from neuromech.errors import RecordingError, did_you_mean
 from neuromech.graph.signals import matching
 from neuromech.simulate.anatomy import NO_BODY, Anatomy
 from neuromech.units import unit_factor
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 Array = NDArray[np.float64]
 OutcomeKind = Literal["finished", "fell", "diverged", "stopped"]
@@ -150,10 +152,11 @@ _Places = dict[str, tuple[_Block, int]]
 class Recording:
     """Recorded signals and their provenance.
 
-    A search looks at a few signals of thousands of recordings, so that labels are put on when somebody asks for them.
+    A search looks at a few signals of thousands of recordings, so that labels are put on when somebody asks for them,
+    and what labels need is imported then.
     """
 
-    def __init__(self, provenance: Provenance, places: _Places, tree: Callable[[], xr.DataTree]) -> None:
+    def __init__(self, provenance: Provenance, places: _Places, tree: "Callable[[], xr.DataTree]") -> None:
         """Take what `from_groups` and `from_tree` found; `tree` is called at most once."""
         self.provenance = provenance
         self._places = places
@@ -162,10 +165,16 @@ class Recording:
     @classmethod
     def from_groups(cls, groups: Mapping[str, GroupData], provenance: Provenance) -> "Recording":
         """Build a recording from arrays, one entry per record group."""
-        return cls(provenance, _places_in_groups(groups.values()), lambda: _tree(groups, provenance))
+
+        def labelled() -> "xr.DataTree":
+            from neuromech.simulate.labels import labelled_tree
+
+            return labelled_tree(groups, provenance)
+
+        return cls(provenance, _places_in_groups(groups.values()), labelled)
 
     @classmethod
-    def from_tree(cls, tree: xr.DataTree) -> "Recording":
+    def from_tree(cls, tree: "xr.DataTree") -> "Recording":
         """Wrap a tree that was read from a results file.
 
         Raises:
@@ -175,7 +184,7 @@ class Recording:
         return cls(Provenance.from_attributes(tree.attrs), _places_in_tree(tree), lambda: tree)
 
     @cached_property
-    def tree(self) -> xr.DataTree:
+    def tree(self) -> "xr.DataTree":
         """All of it as an xarray tree with one node per record group.
 
         A node has a coordinate `time` (s) and one variable per quantity with the dimensions (time, element):
@@ -224,46 +233,6 @@ class Recording:
         return self._places[name]
 
 
-def _tree(groups: Mapping[str, GroupData], provenance: Provenance) -> xr.DataTree:
-    nodes = {f"/{name}": _dataset(data) for name, data in groups.items()}
-    return xr.DataTree.from_dict({"/": xr.Dataset(attrs=provenance.to_attributes()), **nodes})
-
-
-def _dataset(data: GroupData) -> xr.Dataset:
-    variables: dict[str, xr.Variable] = {}
-    coordinates: dict[str, xr.Variable] = {"time": xr.Variable("time", data.time, {"units": "s"})}
-    for (quantity, unit, variable), columns in _variables(data).items():
-        dimension = f"{variable}_element"
-        elements = np.array([data.names[column].rpartition(".")[0] for column in columns], dtype=np.str_)
-        coordinates[dimension] = xr.Variable(dimension, elements)
-        attributes = {"units": unit, "quantity": quantity}
-        variables[variable] = xr.Variable(("time", dimension), data.values[:, _slice(columns)], attributes)
-    return xr.Dataset(variables, coordinates, {"signals": json.dumps(data.names)})
-
-
-def _slice(columns: list[int]) -> slice | list[int]:
-    """Return neighbouring columns as a slice, which copies nothing."""
-    neighbours = columns == list(range(columns[0], columns[0] + len(columns)))
-    return slice(columns[0], columns[-1] + 1) if neighbours else columns
-
-
-def _variables(data: GroupData) -> dict[tuple[str, str, str], list[int]]:
-    """Return {(quantity, unit, variable name): columns}; the unit joins the name where one quantity has several."""
-    quantities = [name.rpartition(".")[2] for name in data.names]
-    units_of: dict[str, set[str]] = {}
-    for quantity, unit in zip(quantities, data.units, strict=True):
-        units_of.setdefault(quantity, set()).add(unit)
-    found: dict[tuple[str, str, str], list[int]] = {}
-    for column, (quantity, unit) in enumerate(zip(quantities, data.units, strict=True)):
-        suffix = "_" + _word(unit) if len(units_of[quantity]) > 1 else ""
-        found.setdefault((quantity, unit, quantity + suffix), []).append(column)
-    return found
-
-
-def _word(unit: str) -> str:
-    return unit.replace("/", " per ").replace("^", "").replace("  ", " ").strip().replace(" ", "_") or "number"
-
-
 def _places_in_groups(groups: Iterable[GroupData]) -> _Places:
     """Return where each signal is, of several places the one with the finest steps."""
     found: _Places = {}
@@ -273,7 +242,7 @@ def _places_in_groups(groups: Iterable[GroupData]) -> _Places:
     return found
 
 
-def _places_in_tree(tree: xr.DataTree) -> _Places:
+def _places_in_tree(tree: "xr.DataTree") -> _Places:
     """Return the same for a tree; the recorded order of a group is in its attribute `signals`."""
     found: _Places = {}
     for node in tree.children.values():
