@@ -4,12 +4,9 @@ The arithmetic is compiled as it is written, without the liberties that equation
 the portable path gives. A failure is remembered in `world[FAILED]`.
 """
 
-from collections.abc import Callable
-from functools import partial
 from math import cos, sin
-from typing import Any, Final, NamedTuple
+from typing import Final, NamedTuple
 
-import numba
 import numpy as np
 
 from neuromech.bodies.base import Floats
@@ -26,7 +23,7 @@ from neuromech.compiler.foreign import (
     load_int,
 )
 from neuromech.compiler.memory import apart
-from neuromech.compiler.numerics import AS_WRITTEN, Integers
+from neuromech.compiler.numerics import Integers, exact_part, exactly
 from neuromech.errors import RunError
 
 CLIENT, ROBOT, GROUND, ROOT, FAILED = range(5)
@@ -202,11 +199,7 @@ def _engine(client: CClient, world: BulletWorld) -> BulletEngine:
     )
 
 
-def _exact(function: Callable[..., Any], keep: bool = False) -> Any:
-    return numba.njit(cache=keep, nogil=True, error_model="numpy", **AS_WRITTEN)(function)
-
-
-@partial(_exact, keep=True)
+@exactly
 def read(engine: BulletEngine, state: Floats) -> int:
     """Fill the state array, see `BodyState`, and return 0; 1 when Bullet failed."""
     calls, world, answer = engine.calls, engine.world, engine.answer
@@ -235,7 +228,7 @@ def read(engine: BulletEngine, state: Floats) -> int:
     return 0
 
 
-@_exact
+@exact_part
 def advance(engine: BulletEngine) -> int:
     """Advance by one step and return 0; 1 when Bullet failed. What Bullet itself costs."""
     status = _answered(engine, _of_client(engine.calls[_STEP], (engine.world[CLIENT],)))
@@ -244,7 +237,7 @@ def advance(engine: BulletEngine) -> int:
     return int(engine.world[FAILED])
 
 
-@partial(_exact, keep=True)
+@exactly
 def step(engine: BulletEngine, torque: Floats) -> int:
     """Apply joint torques, advance by one step and return 0; 1 when Bullet failed."""
     calls, world = engine.calls, engine.world
@@ -256,7 +249,7 @@ def step(engine: BulletEngine, torque: Floats) -> int:
     return int(advance(engine))
 
 
-@partial(_exact, keep=True)
+@exactly
 def push(engine: BulletEngine, segment: int, acting: Floats) -> int:
     """Let a force act on a segment during the next step; `acting` (9,) as in `Body.push`. Returns 0."""
     calls, world, force = engine.calls, engine.world, acting.ctypes.data
@@ -267,7 +260,7 @@ def push(engine: BulletEngine, segment: int, acting: Floats) -> int:
     return 0
 
 
-@partial(_exact, keep=True)
+@exactly
 def place(engine: BulletEngine, weight: int, position: Floats) -> int:
     """Put the weight of a pendulum to a place (3,), at rest. Returns 0."""
     calls, nowhere = engine.calls, engine.answer.ctypes.data + 8 * _NOWHERE
@@ -280,14 +273,14 @@ def place(engine: BulletEngine, weight: int, position: Floats) -> int:
     return 0
 
 
-@_exact
+@exact_part
 def _answered(engine: BulletEngine, command: int) -> int:
     calls, client = engine.calls, engine.world[CLIENT]
     _submit(calls[_SUBMIT], (client, command))
     return int(_of_client(calls[_ANSWER], (client,)))
 
 
-@_exact
+@exact_part
 def _read_planar_root(engine: BulletEngine, n: int, q: int, v: int, state: Floats) -> None:
     root = 2 * n
     for k in range(13):
@@ -303,7 +296,7 @@ def _read_planar_root(engine: BulletEngine, n: int, q: int, v: int, state: Float
     state[root + 11] = load_double(v + 8 * engine.velocities[n + 2])
 
 
-@_exact
+@exact_part
 def _read_free_root(constants: Floats, q: int, v: int, state: Floats, root: int) -> None:
     for k in range(7):
         state[root + k] = load_double(q + 8 * k)
@@ -320,7 +313,7 @@ def _read_free_root(constants: Floats, q: int, v: int, state: Floats, root: int)
     state[root + 9] -= wx * y - wy * x
 
 
-@_exact
+@exact_part
 def _rotated(x: float, y: float, z: float, w: float, a: float, b: float, c: float) -> tuple[float, float, float]:
     first, second, third = 2.0 * (y * c - z * b), 2.0 * (z * a - x * c), 2.0 * (x * b - y * a)
     return (
@@ -330,7 +323,7 @@ def _rotated(x: float, y: float, z: float, w: float, a: float, b: float, c: floa
     )
 
 
-@_exact
+@exact_part
 def _read_contacts(engine: BulletEngine, links: int, state: Floats, start: int) -> None:
     calls, world, answer = engine.calls, engine.world, engine.answer
     for place in range(start, state.shape[0]):
@@ -348,7 +341,7 @@ def _read_contacts(engine: BulletEngine, links: int, state: Floats, start: int) 
         _add_contact(engine, point, state, start)
 
 
-@_exact
+@exact_part
 def _read_weight(engine: BulletEngine, weight: int, into: Floats) -> None:
     calls, world, answer, number = engine.calls, engine.world, engine.answer, engine.weights[weight]
     room = answer.ctypes.data
@@ -369,7 +362,7 @@ def _read_weight(engine: BulletEngine, weight: int, into: Floats) -> None:
             into[6 + c] -= load_double(point + _NORMAL_FORCE) * load_double(point + _NORMAL + 8 * c)
 
 
-@_exact
+@exact_part
 def _add_contact(engine: BulletEngine, point: int, state: Floats, start: int) -> None:
     # Bullet tells the force on the first thing of a couple, and the order of a couple with boxes is Bullet's choice.
     # (Where it is asked for the robot as the first, it turns the normal round but not the friction.)
@@ -379,7 +372,7 @@ def _add_contact(engine: BulletEngine, point: int, state: Floats, start: int) ->
         _add_force(point, 1.0 if first else -1.0, state, start + 3 * engine.rows[link])
 
 
-@_exact
+@exact_part
 def _clear(engine: BulletEngine, links: int) -> bool:
     # Bullet leaves the poses of links as they were when it last looked for contacts.
     for link in range(engine.rows.shape[0]):
@@ -389,7 +382,7 @@ def _clear(engine: BulletEngine, links: int) -> bool:
     return True
 
 
-@_exact
+@exact_part
 def _add_force(point: int, sign: float, state: Floats, start: int) -> None:
     normal = sign * load_double(point + _NORMAL_FORCE)
     first, second = sign * load_double(point + _FRICTION[0]), sign * load_double(point + _FRICTION[1])

@@ -18,7 +18,7 @@ from math import cos, sin
 from typing import Any
 
 from neuromech.compiler.foreign import ADDRESS, NOTHING, foreign_function
-from neuromech.compiler.numerics import Floats, exactly
+from neuromech.compiler.numerics import Floats, exact_part, exactly
 from neuromech.compiler.tree import FREE_ROOT, PLANAR_ROOT
 
 _call = foreign_function(NOTHING, ADDRESS, ADDRESS)
@@ -90,14 +90,14 @@ def place(engine: tuple[Any, ...], weight: int, position: Floats) -> int:
     return 0
 
 
-@exactly
+@exact_part
 def _read_planar_root(positions: Floats, velocities: Floats, pose: Floats, velocity: Floats) -> None:
     pose[0], pose[2] = positions[0], positions[1]
     pose[4], pose[6] = sin(positions[2] / 2.0), cos(positions[2] / 2.0)
     velocity[0], velocity[2], velocity[4] = velocities[0], velocities[1], velocities[2]
 
 
-@exactly
+@exact_part
 def _read_free_root(positions: Floats, velocities: Floats, pose: Floats, velocity: Floats) -> None:
     for c in range(3):
         pose[c] = positions[c]

@@ -1,9 +1,9 @@
 """Shape -> source of the module that steps it. The module is meant to be read: `neuromech compile SPEC`."""
 
-import re
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from typing import Any
 
+from neuromech.compiler.conditions import chosen
 from neuromech.compiler.shape import (
     KindShape,
     Shape,
@@ -18,8 +18,6 @@ from neuromech.compiler.template_body import BODY
 from neuromech.compiler.template_network import NETWORK, NO_BODY, STEPPERS
 from neuromech.compiler.template_record import RECORD
 from neuromech.compiler.template_sums import GATHER, GATHER_SLOTS, ROWS, TEAM_GATHER
-
-_CONDITION = re.compile(r" *if (not )?<(delays|shared weights|relays|commanded|memory)>:")
 
 # Arguments of `advance` that are no state, input or parameter.
 _OF_STEP = ("duration", "elapsed")
@@ -62,26 +60,10 @@ def _fill(text: str, shape: Shape) -> str:
         "commanded": any(is_commanded(kind.cls) for kind in shape.kinds),
         "memory": any(kind.cls.advance for kind in shape.kinds if not evaluated_with_body(kind.cls)),
     }
-    text = _chosen(text, flags)
+    text = chosen(text, flags)
     for name in shape.header():
         text = text.replace(f"<{name}>", f"I[{_constant(name)}]")
     return text
-
-
-def _chosen(text: str, flags: Mapping[str, bool]) -> str:
-    """Keep what stands below `if <flag>:` where the flag holds, else drop it: what is not there is not compiled."""
-    kept = list[str]()
-    conditions = list[tuple[int, bool]]()
-    for line in text.splitlines():
-        indentation = len(line) - len(line.lstrip())
-        while line and conditions and indentation <= conditions[-1][0]:
-            conditions.pop()
-        found = _CONDITION.fullmatch(line)
-        if found:
-            conditions.append((indentation, flags[found[2]] != bool(found[1])))
-        elif not line or all(holds for _, holds in conditions):
-            kept.append(line[4 * len(conditions) :])
-    return "\n".join(kept) + "\n"
 
 
 def _constant(name: str) -> str:

@@ -2,7 +2,7 @@
 
 from math import asin, atan2
 
-from neuromech.compiler.numerics import Floats, Integers, exactly
+from neuromech.compiler.numerics import Floats, Integers, exact_part, exactly
 from neuromech.compiler.sines import sine_and_cosine
 from neuromech.compiler.tree import AXIS, HINGE, JOINT, KIND, PARENT, POSITION
 
@@ -123,7 +123,7 @@ def quaternion_rotation(x: float, y: float, z: float, w: float, rotation: Floats
     rotation[2, 2] = 1.0 - 2.0 * (x * x + y * y)
 
 
-@exactly
+@exact_part
 def world_axis(geometry: Floats, rotation: Floats, segment: int, k: int) -> float:
     """Return component `k` of a segment's joint axis in world axes."""
     component: float = (
@@ -134,7 +134,7 @@ def world_axis(geometry: Floats, rotation: Floats, segment: int, k: int) -> floa
     return component
 
 
-@exactly
+@exact_part
 def _turn(parent: Floats, x: float, y: float, z: float, s: float, c: float, rotation: Floats) -> None:
     # Rodrigues' formula with sine and cosine of the angle, multiplied onto the parent's orientation.
     d = 1.0 - c

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from types import FunctionType
-from typing import Any, Final
+from typing import Any
 
 import numba
 import numpy as np
@@ -19,7 +19,7 @@ Places = NDArray[np.uint32]
 _FAST_MATH = {"contract", "arcp", "nsz", "afn", "reassoc"}
 
 # Numba gives a function that says nothing about fast mathematics that of whichever function calls it first.
-AS_WRITTEN: Final[dict[str, Any]] = {"fastmath": False, **NOTHING_COUNTED}
+_AS_WRITTEN: dict[str, Any] = {"nogil": True, "error_model": "numpy", "fastmath": False}
 
 # What Python needs to call a function takes a fifth of the time to compile it.
 _UNKNOWN_TO_PYTHON: dict[str, Any] = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True, **NOTHING_COUNTED}
@@ -32,7 +32,17 @@ def compiled(function: Callable[..., Any]) -> Any:
 
 def exactly(function: Callable[..., Any]) -> Any:
     """Compile a kernel as it is written, without fast mathematics: the same bits whatever it is inlined into."""
-    return numba.njit(cache=True, nogil=True, error_model="numpy", **AS_WRITTEN)(function)
+    return numba.njit(cache=True, **_AS_WRITTEN, **NOTHING_COUNTED)(function)
+
+
+def exact_part(function: Callable[..., Any]) -> Any:
+    """Compile a function as it is written that always becomes part of its caller, a compiled one."""
+    return numba.njit(forceinline=True, **_AS_WRITTEN, **_UNKNOWN_TO_PYTHON)(function)
+
+
+def within(kernel: Any) -> Any:
+    """Return a kernel that Python calls too as text of the compiled function that calls it: compiled but once."""
+    return numba.jit(**{**kernel.targetoptions, **_UNKNOWN_TO_PYTHON}, inline="always")(kernel.py_func)
 
 
 def equation(function: Callable[..., Any]) -> Any:
@@ -63,7 +73,7 @@ def elementwise(function: Callable[..., Any]) -> Any:
         if isinstance(helper, FunctionType) and helper.__module__ == function.__module__:
             names[name] = elementwise(helper)
     own = FunctionType(function.__code__, names, function.__name__, function.__defaults__)
-    options = {**NOTHING_COUNTED, "forceinline": True}
+    options = {**_UNKNOWN_TO_PYTHON, "forceinline": True}
     return numba.njit(nogil=True, error_model="numpy", fastmath=_FAST_MATH, **options)(own)
 
 

@@ -10,11 +10,11 @@ from math import atan2, cos, sin, sqrt
 
 import numpy as np
 
-from neuromech.compiler.numerics import Floats, Integers, exactly
+from neuromech.compiler.numerics import Floats, Integers, exact_part, exactly
 from neuromech.graph.model import BodyModel
 from neuromech.graph.swing import HEADINGS, aimed, first_pivot, first_place
 
-_aimed = exactly(aimed)
+_aimed = exact_part(aimed)
 
 # Columns of `Pendulums.numbers`.
 _MASS, _STRING, _RADIUS, _HEADING, _RELEASE, _TAKEN_AWAY, _IS_AIMED, _STAYS, _TARGET = range(9)
@@ -126,7 +126,7 @@ def lead(
     return put
 
 
-@exactly
+@exact_part
 def _target(pendulum: Floats, segment: int, rotation: Floats, position: Floats) -> tuple[float, float, float]:
     axes, place = rotation[segment], position[segment]
     a, b, c = pendulum[_TARGET], pendulum[_TARGET + 1], pendulum[_TARGET + 2]
@@ -136,7 +136,7 @@ def _target(pendulum: Floats, segment: int, rotation: Floats, position: Floats) 
     return x, y, z
 
 
-@exactly
+@exact_part
 def _aim(
     time: float,
     gravity: float,
@@ -158,7 +158,7 @@ def _aim(
     now[PLACE], now[PLACE + 1], now[PLACE + 2] = px + string * cos(heading), py + string * sin(heading), pz
 
 
-@exactly
+@exact_part
 def _tension(
     dt: float, gravity: float, pendulum: Floats, now: Floats, acting: Floats, vx: float, vy: float, vz: float
 ) -> None:

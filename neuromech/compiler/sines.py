@@ -5,13 +5,8 @@ With n the nearest whole number to 2 x/π and r = x − n π/2 both are polynomi
 are the same on every machine. Errors stay below 3e-16 up to 1000 rad (measured by a test).
 """
 
-from collections.abc import Callable
-from typing import Any
-
-import numba
-
 from neuromech.compiler.exponential import ROUNDER, bits
-from neuromech.compiler.memory import NOTHING_COUNTED
+from neuromech.compiler.numerics import exact_part
 
 _TWO_OVER_PI = 0.6366197723675814
 # π/2 in three parts, of which the first two have so few digits that their products with n are exact.
@@ -20,12 +15,7 @@ _SECOND = 6.07710050630396597660e-11
 _THIRD = 2.02226624879595063154e-21
 
 
-def _inlined(function: Callable[[float], tuple[float, float]]) -> Any:
-    options = {**NOTHING_COUNTED, "forceinline": True}
-    return numba.njit(nogil=True, error_model="numpy", fastmath=False, **options)(function)
-
-
-@_inlined
+@exact_part
 def sine_and_cosine(x: float) -> tuple[float, float]:
     """Return the sine and the cosine of an angle in rad; not numbers where it is none."""
     shifted = x * _TWO_OVER_PI + ROUNDER

@@ -103,10 +103,10 @@ def begin(x, s, u, p, F, I):
     apply_protocol(0.0, p, I)
     for row in range(<inputs>):
         F[<base> + row] = 0.0
-    for _ in range(1 + <history_width>):
-        network_outputs(x, s, u, p, F, I)
-        fill_history(s, F, I)
-        if <delays>:
+    if <delays>:
+        for _ in range(1 + <history_width>):
+            network_outputs(x, s, u, p, F, I)
+            fill_history(s, F, I)
             delayed_inputs(0, 0.0, p, F, I)
 '''
 

@@ -223,7 +223,8 @@ def _body_state(run: _Run, body: Body) -> Floats:
 def _native_loop(run: _Run, body: Body, native_module: str, native: tuple[Any, ...]) -> Outcome | None:
     memory, dt = run.memory, run.program.tick
     fall = _fall_rule(run, body)
-    advance = compiled_loop(run.program, native_module).run
+    pushes, pendulums = len(run.pushes.places) > 0, len(run.pendulums.segments) > 0
+    advance = compiled_loop(run.program, native_module, pushes=pushes, pendulums=pendulums).run
     limits = (fall.height, fall.least_cosine, (fall.surface.corners, fall.surface.steps))
     hanging = (run.pendulums.numbers, run.pendulums.segments, run.pendulums.now, run.pendulums.gravity)
     outside = ((run.pushes.numbers, run.pushes.places), hanging, np.zeros(ACTING))
