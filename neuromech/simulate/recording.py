@@ -153,7 +153,7 @@ class Recording:
     """Recorded signals and their provenance.
 
     A search looks at a few signals of thousands of recordings, so that labels are put on when somebody asks for them,
-    and what labels need is imported then.
+    and xarray is imported then.
     """
 
     def __init__(self, provenance: Provenance, places: _Places, tree: "Callable[[], xr.DataTree]") -> None:
@@ -165,13 +165,7 @@ class Recording:
     @classmethod
     def from_groups(cls, groups: Mapping[str, GroupData], provenance: Provenance) -> "Recording":
         """Build a recording from arrays, one entry per record group."""
-
-        def labelled() -> "xr.DataTree":
-            from neuromech.simulate.labels import labelled_tree
-
-            return labelled_tree(groups, provenance)
-
-        return cls(provenance, _places_in_groups(groups.values()), labelled)
+        return cls(provenance, _places_in_groups(groups.values()), lambda: _tree(groups, provenance))
 
     @classmethod
     def from_tree(cls, tree: "xr.DataTree") -> "Recording":
@@ -231,6 +225,50 @@ class Recording:
         if name not in self._places:
             raise RecordingError(f"signal '{name}' was not recorded. Hint: {did_you_mean(name, self._places)}")
         return self._places[name]
+
+
+def _tree(groups: Mapping[str, GroupData], provenance: Provenance) -> "xr.DataTree":
+    import xarray as xr
+
+    nodes = {f"/{name}": _dataset(data) for name, data in groups.items()}
+    return xr.DataTree.from_dict({"/": xr.Dataset(attrs=provenance.to_attributes()), **nodes})
+
+
+def _dataset(data: GroupData) -> "xr.Dataset":
+    import xarray as xr
+
+    variables: dict[str, xr.Variable] = {}
+    coordinates: dict[str, xr.Variable] = {"time": xr.Variable("time", data.time, {"units": "s"})}
+    for (quantity, unit, variable), columns in _variables(data).items():
+        dimension = f"{variable}_element"
+        elements = np.array([data.names[column].rpartition(".")[0] for column in columns], dtype=np.str_)
+        coordinates[dimension] = xr.Variable(dimension, elements)
+        attributes = {"units": unit, "quantity": quantity}
+        variables[variable] = xr.Variable(("time", dimension), data.values[:, _slice(columns)], attributes)
+    return xr.Dataset(variables, coordinates, {"signals": json.dumps(data.names)})
+
+
+def _slice(columns: list[int]) -> slice | list[int]:
+    """Return neighbouring columns as a slice, which copies nothing."""
+    neighbours = columns == list(range(columns[0], columns[0] + len(columns)))
+    return slice(columns[0], columns[-1] + 1) if neighbours else columns
+
+
+def _variables(data: GroupData) -> dict[tuple[str, str, str], list[int]]:
+    """Return {(quantity, unit, variable name): columns}; the unit joins the name where one quantity has several."""
+    quantities = [name.rpartition(".")[2] for name in data.names]
+    units_of: dict[str, set[str]] = {}
+    for quantity, unit in zip(quantities, data.units, strict=True):
+        units_of.setdefault(quantity, set()).add(unit)
+    found: dict[tuple[str, str, str], list[int]] = {}
+    for column, (quantity, unit) in enumerate(zip(quantities, data.units, strict=True)):
+        suffix = "_" + _word(unit) if len(units_of[quantity]) > 1 else ""
+        found.setdefault((quantity, unit, quantity + suffix), []).append(column)
+    return found
+
+
+def _word(unit: str) -> str:
+    return unit.replace("/", " per ").replace("^", "").replace("  ", " ").strip().replace(" ", "_") or "number"
 
 
 def _places_in_groups(groups: Iterable[GroupData]) -> _Places:

@@ -11,6 +11,8 @@ from neuromech.spec.node import join
 from neuromech.spec.scalars import Written
 from neuromech.units import measure, repr_short
 
+_LIMITS = ("minimum", "maximum")
+
 
 @dataclass(frozen=True, slots=True)
 class Bounds:
@@ -47,16 +49,29 @@ def check_parameter(parameter: Parameter, path: str) -> Iterator[Problem]:
     bounds = Bounds.of(parameter)
     if problems or bounds is None:
         return
-    for key, value in (("minimum", parameter.minimum), ("maximum", parameter.maximum)):
-        if value is not None and measure(value)[1] != bounds.dimension:
-            message = f"must have the dimension of the value, '{parameter.value}'"
-            yield Problem("wrong-unit", join(path, key), message, repr_short(value))
-            return
+    odd = _of_another_dimension(parameter, path)
+    if odd is not None:
+        yield odd
+        return
     if bounds.least > bounds.most:
         message = f"must not be below the minimum, {bounds.least_text}"
         yield Problem("out-of-range", join(path, "maximum"), message, repr_short(parameter.maximum))
     else:
         yield from _inside(parameter.value, bounds, join(path, "value"), "")
+
+
+def _of_another_dimension(parameter: Parameter, path: str) -> Problem | None:
+    """Return the problem of a limit that is no such quantity as the value; of the value where both limits say so."""
+    value, *limits = parameter.value, parameter.minimum, parameter.maximum
+    dimensions = {key: measure(one)[1] for key, one in zip(_LIMITS, limits, strict=True) if one is not None}
+    odd = [key for key, dimension in dimensions.items() if dimension != measure(value)[1]]
+    if not odd:
+        return None
+    if len(odd) == len(_LIMITS) and len(set(dimensions.values())) == 1:
+        message = f"must have the dimension of its limits, '{limits[0]}' and '{limits[1]}'"
+        return Problem("wrong-unit", join(path, "value"), message, repr_short(value))
+    message = f"must have the dimension of the value, '{value}'"
+    return Problem("wrong-unit", join(path, odd[0]), message, repr_short(getattr(parameter, odd[0])))
 
 
 def check_value(value: Written, bounds: Bounds, name: str, path: str) -> Iterator[Problem]:

@@ -20,7 +20,7 @@ from types import TracebackType
 from typing import Any, Generic, Self, TypeVar
 
 from neuromech.errors import NeuromechError
-from neuromech.study.tasks import Packed, call, call_again
+from neuromech.study.tasks import Packed, call_again, call_and_keep
 
 Job = TypeVar("Job")
 Result = TypeVar("Result")
@@ -219,7 +219,7 @@ class _Process:
         """Hand out a job, and the task where it is not the one before."""
         if packed is self._packed:
             return self.pool.submit(call_again, job)
-        future = self.pool.submit(call, packed, job)
+        future = self.pool.submit(call_and_keep, packed, job)
         self._packed = packed
         return future
 

@@ -35,9 +35,17 @@ def call(packed: Packed, job: Any) -> Any:
     Raises:
         StudyError: the packages there are others, which might give other numbers.
     """
-    task = _unpacked(packed)
-    _latest[:] = [task]
-    return task(job)
+    return _unpacked(packed)(job)
+
+
+def call_and_keep(packed: Packed, job: Any) -> Any:
+    """Do the same and keep the task for `call_again`.
+
+    Raises:
+        StudyError: as for `call`.
+    """
+    _latest[:] = [_unpacked(packed)]
+    return call_again(job)
 
 
 def call_again(job: Any) -> Any:
