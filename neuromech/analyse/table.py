@@ -29,6 +29,7 @@ from neuromech.analyse.locomotion import (
     distance,
     froude_number,
     heading_drift,
+    moving_time,
     speed,
     speed_range,
     time_alive,
@@ -103,6 +104,9 @@ _WAY = {
     "distance": MeasureKind(distance, "length", ("segment",), ("axis",), of_early_end=True),
     "speed": MeasureKind(speed, "speed", ("segment",), ("axis",), of_early_end=True),
     "speed_range": MeasureKind(speed_range, "speed", ("segment", "average_over"), ("axis",), least=0.0),
+    "moving_time": MeasureKind(
+        moving_time, "time", ("segment", "least_speed", "average_over"), ("axis",), of_early_end=True, least=0.0
+    ),
     "froude_number": MeasureKind(
         froude_number, "number", ("segment", "leg_length"), ("axis",), of_early_end=True, least=0.0
     ),

@@ -167,7 +167,7 @@ class View:
         """Return an argument of the measure as a number of `unit`."""
         return in_unit(self._need(name), unit, name.replace("_", " "))
 
-    def number(self, name: Literal["leg_length", "perturbed_at", "average_over"]) -> float:
+    def number(self, name: Literal["leg_length", "perturbed_at", "average_over", "least_speed"]) -> float:
         """Return an argument of the measure that has a unit of its own, in SI units."""
         return float(self._need(name))
 

@@ -7,7 +7,7 @@ from pydantic import Field
 
 from neuromech.components.base import SpecModel
 from neuromech.spec.scalars import PositiveTime, Written
-from neuromech.units import LENGTH, TIME, Quantity, quantity
+from neuromech.units import LENGTH, TIME, VELOCITY, Quantity, quantity
 
 MUSCLE_SIGNALS = ("stimulation", "activation", "fibre_length", "fibre_velocity", "active_force", "force")
 """What a muscle must have recorded of it for its energy to be known."""
@@ -53,7 +53,8 @@ class Measure(SpecModel):
     units of the signal; `event` says which instant of a cycle a phase is about. Each of `feet` is a pattern of contacts
     that make up one foot, `segment` the segment whose way is measured, along `axis` of the world. Contacts and gaps
     between contacts that are shorter than `least_duration` do not count. `perturbed_at` is when a run was disturbed.
-    `average_over` is how long the stretches are over which something is averaged.
+    `average_over` is how long the stretches are over which something is averaged, `least_speed` how fast a segment must
+    be in each of them.
     `muscles` are patterns of muscles whose energy counts, `maintenance` says whose maintenance heat.
     """
 
@@ -74,6 +75,7 @@ class Measure(SpecModel):
     leg_length: Annotated[Quantity, LENGTH.positive] | None = None
     perturbed_at: PositiveTime | None = None
     average_over: PositiveTime | None = None
+    least_speed: Annotated[Quantity, VELOCITY.positive] | None = None
     muscles: Annotated[tuple[str, ...] | None, Field(min_length=1)] = None
     maintenance: Literal["wang_2012", "dzeladini_2013"] = "wang_2012"
     curve: ReferenceCurve | None = None

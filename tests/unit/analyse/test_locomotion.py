@@ -49,6 +49,27 @@ def test_speed_range_is_that_of_means_over_stretches(record, time):
     assert too_long.value == "the window is shorter than 6 s"
 
 
+def test_moving_time_ends_with_the_first_slow_stretch(record, time):
+    """It walks at 0.6 m/s, swinging back and forth in each stride, and stands still from 3 s on."""
+    way = 0.6 * np.minimum(time, 3.0) + 0.1 * np.sin(4 * np.pi * np.minimum(time, 3.0))
+    stops = record({"trunk.x": (way, "m"), "trunk.y": (-way, "m"), "trunk.z": (0.6 * time, "m")})
+
+    def moves(recording=stops, **more):
+        asked = {"segment": "trunk", "least_speed": "0.06 m/s", "average_over": "1 s", **more}
+        return take(recording, kind="moving_time", **asked).value
+
+    # A tenth of the stretch is still walked, with the swing of the last tenth of a second before the stop.
+    assert 2.8 < moves() < 3.0
+    assert moves(until="2 s") == pytest.approx(2.0)
+    assert moves(axis="y") == 0.0
+    assert moves(axis="z") == pytest.approx(time[-1])
+    assert moves(after="4 s") == 0.0
+    # Within a stride it swings back; a stretch of a fraction of it sees that.
+    assert moves(average_over="10 ms") < 0.3
+    assert moves(record({"trunk.x": (way, "m")}, outcome=FELL)) == moves()
+    assert moves(average_over="20 s", until="2 s") == pytest.approx(2.0)
+
+
 def test_froude_number(walk):
     recording = walk(anatomy=Anatomy(6.0, 9.81, {}))
     found = take(recording, kind="froude_number", segment="trunk", leg_length="200 mm")
@@ -97,7 +118,7 @@ def test_a_run_that_fell_before_the_window_has_no_distance(walk, record, time):
 def test_kinds_of_early_ends_are_those_that_say_so():
     partial = {name for name, kind in MEASURES.items() if kind.of_early_end}
     until_it_falls = {"outcome", "time_alive", "running_time", "distance", "speed", "froude_number", "touchdowns"}
-    assert partial == until_it_falls | {"metabolic_energy"}
+    assert partial == until_it_falls | {"moving_time", "metabolic_energy"}
 
 
 @pytest.mark.parametrize(

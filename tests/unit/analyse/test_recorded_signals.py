@@ -23,6 +23,7 @@ ARGUMENTS = {
     "leg_length": "1 m",
     "perturbed_at": "3 s",
     "average_over": "1 s",
+    "least_speed": "0.1 m/s",
     "curve": {"columns": ["a", "b"], "phases": [0.0, 30.0, 60.0], "values": [[0.0, 1.0, 0.0], [1.0, 0.0, 0.5]]},
 }
 
