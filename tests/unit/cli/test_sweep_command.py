@@ -14,7 +14,7 @@ import pytest
 from neuromech.cli import sweep as command
 from neuromech.cli.main import run_arguments
 from neuromech.study.executors import Executor
-from neuromech.study.executors import call as carried_out
+from neuromech.study.tasks import call as carried_out
 from neuromech.study.sweeps.dataset import load
 
 DOCUMENT = """
