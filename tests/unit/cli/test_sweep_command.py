@@ -14,8 +14,8 @@ import pytest
 from neuromech.cli import sweep as command
 from neuromech.cli.main import run_arguments
 from neuromech.study.executors import Executor
-from neuromech.study.tasks import call as carried_out
 from neuromech.study.sweeps.dataset import load
+from neuromech.study.tasks import call as carried_out
 
 DOCUMENT = """
 neuromech: 1
