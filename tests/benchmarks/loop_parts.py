@@ -24,6 +24,7 @@ from neuromech.bench.workspace import Workspace
 from neuromech.bodies.factory import open_body
 from neuromech.bodies.pybullet import PyBulletBody
 from neuromech.bodies.pybullet_import import pybullet
+from neuromech.compiler.numerics import within
 from neuromech.compiler.program import Program
 from neuromech.graph.model import BodyModel
 from neuromech.simulate.initial import initial_states
@@ -47,7 +48,7 @@ def counter(_context: Any) -> Any:
 def timed_loop(program: Program, native: str) -> Any:
     """Return the loop over body steps with a look at the counter between its parts."""
     engine, module = import_module(native), program.module
-    read, step, tick, advance = engine.read, engine.step, module.tick, module.advance
+    read, step, tick, advance = engine.read, engine.step, within(module.tick), within(module.advance)
     joints, start, place = module.JOINTS, module.BODY, module.TORQUE
 
     @numba.njit(nogil=True)
