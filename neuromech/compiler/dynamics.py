@@ -8,7 +8,7 @@ Source: Featherstone 2008, Rigid Body Dynamics Algorithms, section 6.2, doi:10.1
 import numpy as np
 
 from neuromech.compiler.kinematics import world_axis
-from neuromech.compiler.numerics import Floats, Integers, compiled, inlined
+from neuromech.compiler.numerics import Floats, Integers, compiled, part
 from neuromech.compiler.tree import (
     ARMATURE,
     CENTER,
@@ -31,7 +31,7 @@ _MOTION = 10
 _FORCE = 16
 
 
-@compiled
+@part
 def inertia_of_all(
     topology: Integers, geometry: Floats, root: int, rotation: Floats, position: Floats, work: Floats, inertia: Floats
 ) -> None:
@@ -66,6 +66,9 @@ def inertia_of_all(
         _root_rows(topology, root, work, inertia)
 
 
+_fill_inertia = compiled(inertia_of_all.py_func)
+
+
 def mass_matrix(tree: Tree, rotation: Floats, position: Floats) -> Floats:
     """Return the matrix that maps joint accelerations to joint torques when nothing else acts, armature included.
 
@@ -82,7 +85,7 @@ def mass_matrix(tree: Tree, rotation: Floats, position: Floats) -> Floats:
     """
     n = len(tree.joints)
     lower = np.zeros((n + tree.root, n + tree.root))
-    inertia_of_all(tree.topology, tree.geometry, tree.root, rotation, position, tree.new_work(), lower)
+    _fill_inertia(tree.topology, tree.geometry, tree.root, rotation, position, tree.new_work(), lower)
     joints = lower[:n, :n] + np.tril(lower[:n, :n], -1).T
     if tree.root == FIXED_ROOT:
         return joints
@@ -91,14 +94,14 @@ def mass_matrix(tree: Tree, rotation: Floats, position: Floats) -> Floats:
     return np.asarray(joints - shared.T @ shared)
 
 
-@inlined
+@part
 def _clear(matrix: Floats, size: int) -> None:
     for i in range(size):
         for j in range(size):
             matrix[i, j] = 0.0
 
 
-@inlined
+@part
 def _segment_inertia(geometry: Floats, rotation: Floats, position: Floats, i: int, row: Floats) -> None:
     mass = geometry[i, MASS]
     for k in range(_SECOND + 6):
@@ -118,7 +121,7 @@ def _segment_inertia(geometry: Floats, rotation: Floats, position: Floats, i: in
     _add_moment(row, -mass, x, y, z)
 
 
-@inlined
+@part
 def _add_moment(row: Floats, moment: float, x: float, y: float, z: float) -> None:
     row[_SECOND] += moment * x * x
     row[_SECOND + 1] += moment * y * y
@@ -128,7 +131,7 @@ def _add_moment(row: Floats, moment: float, x: float, y: float, z: float) -> Non
     row[_SECOND + 5] += moment * y * z
 
 
-@inlined
+@part
 def _joint_motion(
     topology: Integers, geometry: Floats, rotation: Floats, position: Floats, i: int, row: Floats
 ) -> None:
@@ -147,7 +150,7 @@ def _joint_motion(
     _apply_inertia(row)
 
 
-@inlined
+@part
 def _store(row: Floats, at: int, a: float, b: float, c: float, x: float, y: float, z: float) -> None:
     row[at] = a
     row[at + 1] = b
@@ -157,7 +160,7 @@ def _store(row: Floats, at: int, a: float, b: float, c: float, x: float, y: floa
     row[at + 5] = z
 
 
-@inlined
+@part
 def _apply_inertia(row: Floats) -> None:
     # Spatial inertia times motion: moment = I ω + h × v, force = m v − h × ω.
     m, hx, hy, hz = row[0], row[1], row[2], row[3]
@@ -175,7 +178,7 @@ def _apply_inertia(row: Floats) -> None:
     )
 
 
-@inlined
+@part
 def _joint_row(topology: Integers, geometry: Floats, i: int, work: Floats, inertia: Floats) -> None:
     row = topology[i, JOINT]
     j = i
@@ -189,7 +192,7 @@ def _joint_row(topology: Integers, geometry: Floats, i: int, work: Floats, inert
     inertia[row, row] += geometry[i, ARMATURE]
 
 
-@inlined
+@part
 def _root_rows(topology: Integers, root: int, work: Floats, inertia: Floats) -> None:
     count = topology.shape[0]
     n = inertia.shape[0] - root
@@ -205,7 +208,7 @@ def _root_rows(topology: Integers, root: int, work: Floats, inertia: Floats) -> 
             inertia[n + i, n + j] = own[i, j]
 
 
-@inlined
+@part
 def _root_inertia(row: Floats, factor: Floats) -> None:
     _clear(factor, 6)
     m, hx, hy, hz = row[0], row[1], row[2], row[3]
@@ -222,7 +225,7 @@ def _root_inertia(row: Floats, factor: Floats) -> None:
     factor[5, 1] = -hx
 
 
-@inlined
+@part
 def _keep_planar(work: Floats, count: int, factor: Floats) -> None:
     # Rows and columns of rotation about y and motion along x and z move to the front.
     yy, xy, zy, m = factor[1, 1], factor[3, 1], factor[5, 1], factor[3, 3]

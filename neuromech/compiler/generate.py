@@ -86,7 +86,7 @@ def _imports(shape: Shape) -> str:
         "from neuromech.compiler.dynamics import inertia_of_all",
         "from neuromech.compiler.kinematics import contact_positions, forward_kinematics, roll_pitch_yaw",
         "from neuromech.compiler.kinematics import segment_velocities, world_axis",
-        "from neuromech.compiler.numerics import compiled, copy_from, elementwise, inlined, interpolate",
+        "from neuromech.compiler.numerics import compiled, copy_from, elementwise, interpolate",
         "from neuromech.compiler.numerics import part, relaxed, sum_at, weighted_sum_at",
         "from neuromech.compiler.paths import LEVER_ARMS, STRAIGHT_LINES, lever, straight_path",
         "from neuromech.compiler.span import places_of, span_of",

@@ -18,6 +18,15 @@ Places = NDArray[np.uint32]
 # Not-a-number and infinity keep their meaning: divergence is looked for.
 _FAST_MATH = {"contract", "arcp", "nsz", "afn", "reassoc"}
 
+# What is compiled with liberties always becomes part of its caller. A copy that stood beside it would round otherwise,
+# and which copy of a function serves a process is decided by what that process compiled or loaded before.
+_WITH_LIBERTIES: dict[str, Any] = {
+    "nogil": True,
+    "error_model": "numpy",
+    "fastmath": _FAST_MATH,
+    "forceinline": True,
+}
+
 # Numba gives a function that says nothing about fast mathematics that of whichever function calls it first.
 _AS_WRITTEN: dict[str, Any] = {"nogil": True, "error_model": "numpy", "fastmath": False}
 
@@ -27,7 +36,7 @@ _UNKNOWN_TO_PYTHON: dict[str, Any] = {"no_cpython_wrapper": True, "no_cfunc_wrap
 
 def compiled(function: Callable[..., Any]) -> Any:
     """Compile a kernel on first call; releases the interpreter lock, keeps its machine code on disk."""
-    return numba.njit(cache=True, nogil=True, error_model="numpy", fastmath=_FAST_MATH, **NOTHING_COUNTED)(function)
+    return numba.njit(cache=True, **_WITH_LIBERTIES, **NOTHING_COUNTED)(function)
 
 
 def exactly(function: Callable[..., Any]) -> Any:
@@ -46,19 +55,13 @@ def within(kernel: Any) -> Any:
 
 
 def equation(function: Callable[..., Any]) -> Any:
-    """Compile a function that is inlined into the kernel that calls it, so that nothing is kept on disk."""
-    return numba.njit(nogil=True, error_model="numpy", fastmath=_FAST_MATH, **NOTHING_COUNTED)(function)
+    """Compile a function that kernels call, and tests: nothing of it is kept on disk."""
+    return numba.njit(**_WITH_LIBERTIES, **NOTHING_COUNTED)(function)
 
 
 def part(function: Callable[..., Any]) -> Any:
     """Compile a function that only compiled functions call; what Python needs to call it is left out."""
-    return numba.njit(nogil=True, error_model="numpy", fastmath=_FAST_MATH, **_UNKNOWN_TO_PYTHON)(function)
-
-
-def inlined(function: Callable[..., Any]) -> Any:
-    """Compile a function that always becomes part of its caller: a call hands over seven numbers for each array."""
-    options = {**_UNKNOWN_TO_PYTHON, "forceinline": True}
-    return numba.njit(nogil=True, error_model="numpy", fastmath=_FAST_MATH, **options)(function)
+    return numba.njit(**_WITH_LIBERTIES, **_UNKNOWN_TO_PYTHON)(function)
 
 
 def elementwise(function: Callable[..., Any]) -> Any:
@@ -73,8 +76,7 @@ def elementwise(function: Callable[..., Any]) -> Any:
         if isinstance(helper, FunctionType) and helper.__module__ == function.__module__:
             names[name] = elementwise(helper)
     own = FunctionType(function.__code__, names, function.__name__, function.__defaults__)
-    options = {**_UNKNOWN_TO_PYTHON, "forceinline": True}
-    return numba.njit(nogil=True, error_model="numpy", fastmath=_FAST_MATH, **options)(own)
+    return part(own)
 
 
 def _in_order(function: Callable[..., Any]) -> Any:
@@ -82,8 +84,7 @@ def _in_order(function: Callable[..., Any]) -> Any:
 
     Compilers would turn the loops below into gather instructions, which take three times as long.
     """
-    options = {**_UNKNOWN_TO_PYTHON, "forceinline": True}
-    return numba.njit(nogil=True, error_model="numpy", fastmath={"contract"}, **options)(function)
+    return numba.njit(**{**_WITH_LIBERTIES, "fastmath": {"contract"}}, **_UNKNOWN_TO_PYTHON)(function)
 
 
 @_in_order

@@ -4,13 +4,13 @@ from math import cos, sin, sqrt
 
 import numpy as np
 
-from neuromech.compiler.numerics import Floats, Integers, inlined
+from neuromech.compiler.numerics import Floats, Integers, part
 
 CONSTANT_ARMS, STRAIGHT_LINES, LEVER_ARMS = range(3)
 CONSTANT, COSINE, GEOMETRIC = range(3)
 
 
-@inlined
+@part
 def lever(form: int, radius: float, angle: float, reference: float, peak: float) -> tuple[float, float]:
     """Return the lever arm (m) at an angle, and its integral (m) from the reference on; Dzeladini 2013 eq. 2.18–2.23.
 
@@ -31,7 +31,7 @@ def lever(form: int, radius: float, angle: float, reference: float, peak: float)
     return radius * sin(angle) / now, 2.0 * radius * (cos(reference) - cos(angle)) / (now + then)
 
 
-@inlined
+@part
 def straight_path(
     points: Floats,
     carrier: Integers,
@@ -79,7 +79,7 @@ def straight_path(
     return length
 
 
-@inlined
+@part
 def _motion(points: Floats, i: int, axis: Floats, origin: Floats, j: int, slides: int) -> tuple[float, float, float]:
     if slides:
         return axis[j, 0], axis[j, 1], axis[j, 2]

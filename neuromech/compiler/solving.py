@@ -1,6 +1,6 @@
 """Symmetric systems of the size of a body, solved in place."""
 
-from neuromech.compiler.numerics import Floats, Integers, equation, inlined
+from neuromech.compiler.numerics import Floats, Integers, equation, part
 from neuromech.compiler.tree import FREE_ROOT
 
 
@@ -41,7 +41,7 @@ def solve_under_free_root(matrix: Floats, first: Integers, vector: Floats) -> No
     _substitute_back(matrix, first, vector)
 
 
-@inlined
+@part
 def _factorise(matrix: Floats, first: Integers, vector: Floats, begin: int, end: int) -> None:
     """Make factors of the rows from `begin` to `end` as if those before were not there, the pivots inverted."""
     for i in range(begin, end):
@@ -60,7 +60,7 @@ def _factorise(matrix: Floats, first: Integers, vector: Floats, begin: int, end:
         matrix[i, i] = 1.0 / pivot
 
 
-@inlined
+@part
 def _substitute_back(matrix: Floats, first: Integers, vector: Floats) -> None:
     n = vector.shape[0]
     for i in range(n):

@@ -5,7 +5,7 @@ is inlined, because a call hands over each of their two dozen arrays with all it
 """
 
 BODY = '''
-@inlined
+@part
 def kinematics(s, F, I, T, D):
     """Place the segments in the world; signals of the contacts' centres and of the segments that are looked at."""
     topology, geometry, contact_segment, contact_position = T
@@ -36,7 +36,7 @@ def kinematics(s, F, I, T, D):
         s[at + 3], s[at + 4], s[at + 5] = roll_pitch_yaw(rotation[r])
 
 
-@inlined
+@part
 def muscle_paths(s, p, F, I, T, D):
     """Muscle lengths, velocities and moment arms; as if all arms were constant first, then the other paths."""
     n, m, body = <joints>, <muscles>, <body>
@@ -86,7 +86,7 @@ def lengths_now(s, p, F, I, T, D):
     muscle_paths(s, p, F, I, T, D)
 
 
-@inlined
+@part
 def lines_length(k, p, I, T, D, joint, arm):
     """Place the points of muscle k in the world, measure the lines between them, fill the moment arms."""
     topology, geometry, contact_segment, contact_position = T
@@ -107,7 +107,7 @@ def lines_length(k, p, I, T, D, joint, arm):
     return straight_path(points[: last - first], carrier, moved, axis, position, child, slide, joint, arm)
 
 
-@inlined
+@part
 def torques(dt, x, s, u, p, F, I, T, D):
     """Torques of muscles, joint dampers and joint springs, coupled with the body; they go to the torque signals."""
     n, m, body, w = <joints>, <muscles>, <body>, <work>
@@ -185,7 +185,7 @@ def tick(number, dt, x, s, u, p, F, I, R, T, D):
     torques(dt, x, s, u, p, F, I, T, D)
     record(number, x, s, u, I, R)
     take_advanced(x, F, I)
-    return first_bad(span_of(s, <torque>, <joints>))
+    return bad_place(span_of(s, <torque>, <joints>))
 
 
 @compiled
@@ -199,5 +199,5 @@ def advance(number, dt, x, s, u, p, F, I):
         step = number * steps + k
         apply_protocol((step + 0.5) * dt / steps, p, I)
         network_step(step, dt / steps, x, s, u, p, F, I, k == 0 and <driven> == 0)
-    return first_bad(x)
+    return bad_place(x)
 '''

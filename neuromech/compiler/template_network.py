@@ -77,6 +77,12 @@ def apply_protocol(t, p, I):
 @compiled
 def first_bad(x):
     """Return the position of the first state that is not finite, or −1."""
+    return bad_place(x)
+
+
+@part
+def bad_place(x):
+    """Do the same for compiled functions."""
     total = 0.0
     for k in range(x.shape[0]):
         total += x[k] * 0.0
@@ -207,7 +213,7 @@ def run(first, last, dt, x, s, u, p, F, I, R):
         network_step(step, dt, x, s, u, p, F, I, False)
         if <memory>:
             take_advanced(x, F, I)
-        bad = first_bad(x)
+        bad = bad_place(x)
         if bad >= 0:
             return step + 1, bad
     return last, -1

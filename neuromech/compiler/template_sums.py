@@ -1,7 +1,7 @@
 """What sums signals into input ports, as text of a generated step module. <name> is an offset or a count."""
 
 ROWS = '''
-@inlined
+@part
 def arriving(row, s, p, F, I, source, row_start, weights, base):
     """Return the sum of the weighted signals that reach an input port."""
     total = F[base + row] + weighted_sum_at(p, s, source, weights, I[row_start + row], I[row_start + row + 1])
