@@ -106,7 +106,7 @@ def test_fitness_of_habu_2020_equation_15():
     terms = terms_of_page("Habu 2020, equation 15")
     for t, degrees in ((3.0, 1.0), (49.0, 2.0), (80.0, 7.5)):
         printed = min(t, 50.0) + 55.0 * (1.0 - 1.0 / (1.0 + math.exp(-(degrees - 2.0) / 0.8)))
-        found = terms["alive"].weighted(t) + terms["level"].weighted(math.radians(degrees))
+        found = terms["time"].weighted(t) + terms["level"].weighted(math.radians(degrees))
         assert found == pytest.approx(printed)
 
 
