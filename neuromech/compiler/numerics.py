@@ -18,30 +18,29 @@ Places = NDArray[np.uint32]
 # Not-a-number and infinity keep their meaning: divergence is looked for.
 _FAST_MATH = {"contract", "arcp", "nsz", "afn", "reassoc"}
 
-# What is compiled with liberties always becomes part of its caller. A copy that stood beside it would round otherwise,
-# and which copy of a function serves a process is decided by what that process compiled or loaded before.
-_WITH_LIBERTIES: dict[str, Any] = {
-    "nogil": True,
-    "error_model": "numpy",
-    "fastmath": _FAST_MATH,
-    "forceinline": True,
-}
+_WITH_LIBERTIES: dict[str, Any] = {"nogil": True, "error_model": "numpy", "fastmath": _FAST_MATH}
+
+# What compiled code calls and is compiled with liberties always becomes part of its caller. A copy that stood beside it
+# would round otherwise, and which copy of a function serves a process is decided by what that process compiled or
+# loaded before.
+_INLINED: dict[str, Any] = {"forceinline": True, **_WITH_LIBERTIES}
 
 # Numba gives a function that says nothing about fast mathematics that of whichever function calls it first.
 _AS_WRITTEN: dict[str, Any] = {"nogil": True, "error_model": "numpy", "fastmath": False}
 
-# What Python needs to call a function takes a fifth of the time to compile it.
+# The wrapper for C, which nobody calls, takes a tenth of the time to compile a kernel; that for Python as much.
+_KEPT: dict[str, Any] = {"cache": True, "no_cfunc_wrapper": True, **NOTHING_COUNTED}
 _UNKNOWN_TO_PYTHON: dict[str, Any] = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True, **NOTHING_COUNTED}
 
 
 def compiled(function: Callable[..., Any]) -> Any:
     """Compile a kernel on first call; releases the interpreter lock, keeps its machine code on disk."""
-    return numba.njit(cache=True, **_WITH_LIBERTIES, **NOTHING_COUNTED)(function)
+    return numba.njit(**_WITH_LIBERTIES, **_KEPT)(function)
 
 
 def exactly(function: Callable[..., Any]) -> Any:
     """Compile a kernel as it is written, without fast mathematics: the same bits whatever it is inlined into."""
-    return numba.njit(cache=True, **_AS_WRITTEN, **NOTHING_COUNTED)(function)
+    return numba.njit(**_AS_WRITTEN, **_KEPT)(function)
 
 
 def exact_part(function: Callable[..., Any]) -> Any:
@@ -56,12 +55,12 @@ def within(kernel: Any) -> Any:
 
 def equation(function: Callable[..., Any]) -> Any:
     """Compile a function that kernels call, and tests: nothing of it is kept on disk."""
-    return numba.njit(**_WITH_LIBERTIES, **NOTHING_COUNTED)(function)
+    return numba.njit(**_INLINED, **NOTHING_COUNTED)(function)
 
 
 def part(function: Callable[..., Any]) -> Any:
     """Compile a function that only compiled functions call; what Python needs to call it is left out."""
-    return numba.njit(**_WITH_LIBERTIES, **_UNKNOWN_TO_PYTHON)(function)
+    return numba.njit(**_INLINED, **_UNKNOWN_TO_PYTHON)(function)
 
 
 def elementwise(function: Callable[..., Any]) -> Any:
@@ -84,7 +83,7 @@ def _in_order(function: Callable[..., Any]) -> Any:
 
     Compilers would turn the loops below into gather instructions, which take three times as long.
     """
-    return numba.njit(**{**_WITH_LIBERTIES, "fastmath": {"contract"}}, **_UNKNOWN_TO_PYTHON)(function)
+    return numba.njit(**{**_INLINED, "fastmath": {"contract"}}, **_UNKNOWN_TO_PYTHON)(function)
 
 
 @_in_order

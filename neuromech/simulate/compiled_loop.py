@@ -21,12 +21,12 @@ from {native} import place, push, read, step
 import {step} as step_module
 from {step} import BODY, CONTACTS, JOINTS, TORQUE
 
-from neuromech.compiler.ground import height_below
+from neuromech.compiler import ground
 from neuromech.compiler.numerics import compiled, within
 from neuromech.compiler.pendulums import PLACE, lead
 from neuromech.compiler.pushes import acting, share_of_step, show_pushes
 
-advance, tick = within(step_module.advance), within(step_module.tick)
+advance, tick, height_below = within(step_module.advance), within(step_module.tick), within(ground.height_below)
 
 
 @compiled
