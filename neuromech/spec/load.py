@@ -1,10 +1,12 @@
 """A file to a `Document`: the one way in."""
 
-from collections.abc import Mapping, Sequence
+import re
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 from pydantic import TypeAdapter, ValidationError
+from pydantic_core import ErrorDetails
 
 from neuromech.components.catalogue import Catalogue
 from neuromech.errors import DocumentError, Problem
@@ -18,6 +20,8 @@ from neuromech.spec.rules import Sections, check
 from neuromech.spec.shape import field_annotation
 from neuromech.spec.translate import translate
 from neuromech.spec.tree_rules import check_tree
+
+_VALUE_OF_PARAMETER = re.compile(r"parameters\.(.+)\.value")
 
 
 def load(path: Path, *, catalogue: Catalogue, overrides: Sequence[str] = ()) -> Document:
@@ -41,14 +45,15 @@ def load_composed(composed: Composed, *, catalogue: Catalogue, overrides: Sequen
     values: dict[str, Any] = plain(resolved.tree)
     problems = [*resolved.problems, *check_tree(resolved, catalogue)]
     experiment: Experiment | None = None
+    details: list[ErrorDetails] = []
     try:
         experiment = Experiment.model_validate(values, context={"catalogue": catalogue})
         sections = Sections.of(experiment)
     except ValidationError as error:
         details = error.errors(include_url=False, include_input=False)
-        problems.extend(translate(details, resolved.tree, positions, catalogue))
         sections = _sound_sections(values, {str(detail["loc"][0]) for detail in details if detail["loc"]}, catalogue)
-    problems.extend(check(sections, resolved.asked | resolved.through))
+    found = list(check(sections, resolved.asked | resolved.through))
+    problems += [*translate(details, resolved.tree, positions, catalogue, _parameters_of(found)), *found]
     if problems or experiment is None:
         raise DocumentError(_once(positions.placed(problem) for problem in problems))
     return Document(composed.files[0], experiment, positions.values, to_yaml(resolved.tree), resolved.files)
@@ -63,6 +68,12 @@ def _sound_sections(values: Mapping[str, Any], broken: set[str], catalogue: Cata
         if name in values and name not in broken
     }
     return Sections(**sound, has_body="body" in values)
+
+
+def _parameters_of(problems: Iterable[Problem]) -> set[str]:
+    """Return the names of the parameters whose values are wrong."""
+    found = (_VALUE_OF_PARAMETER.fullmatch(problem.path) for problem in problems)
+    return {match[1] for match in found if match}
 
 
 def _once(problems: Any) -> list[Problem]:

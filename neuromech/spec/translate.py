@@ -1,6 +1,6 @@
 """What pydantic found, said in the words of the document."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -48,14 +48,21 @@ class _Place:
 
 
 def translate(
-    errors: Sequence[ErrorDetails], tree: MapNode, positions: Positions, catalogue: Catalogue
+    errors: Sequence[ErrorDetails],
+    tree: MapNode,
+    positions: Positions,
+    catalogue: Catalogue,
+    wrong_parameters: Collection[str] = (),
 ) -> list[Problem]:
-    """Return the problems that validation errors stand for, each with its position, one for each place and rule."""
+    """Return the problems that validation errors stand for, each with its position, one for each place and rule.
+
+    Where a value is that of one of `wrong_parameters`, which are reported themselves, nothing more is said.
+    """
     found: dict[tuple[str, str], Problem] = {}
     missing: dict[str, list[str]] = {}
     for error in errors:
         place = _place(error["loc"], tree, catalogue)
-        if _reported(place.node):
+        if _reported(place.node, wrong_parameters):
             continue
         if error["type"] == "missing" and not isinstance(place.node, ListNode):
             missing.setdefault(place.path, []).append(str(place.rest[0]))
@@ -101,10 +108,12 @@ def _child(node: Node, key: str | int) -> Node | None:
     return None
 
 
-def _reported(node: Node) -> bool:
-    """Tell whether the value asks for something unknown, which has been reported already."""
-    if not isinstance(node, ScalarNode) or node.parameter is not None:
+def _reported(node: Node, wrong_parameters: Collection[str]) -> bool:
+    """Tell whether the value is that of a wrong parameter or asks for something unknown, which is reported already."""
+    if not isinstance(node, ScalarNode):
         return False
+    if node.parameter is not None:
+        return node.parameter in wrong_parameters
     return is_missing(node) or REFERENCE.search(node.text) is not None
 
 
@@ -214,6 +223,8 @@ def expected(shape: Shape) -> str:
 
 
 def _type_hint(shape: Shape, node: Node) -> str | None:
+    if isinstance(node, ScalarNode) and node.text == "null":
+        return "null drops what a document has that is extended, and here it has nothing"
     if isinstance(shape, Leaf) and shape.types == (str,) and isinstance(node, ScalarNode):
         return f'write "{node.text}" in quotes to make it text' if scalar_value(node) is not None else None
     return None
