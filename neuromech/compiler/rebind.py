@@ -1,7 +1,7 @@
 """A program with other values of named parameters, without lowering the document again."""
 
 from collections.abc import Iterator, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Final
 
 from neuromech.compiler.program import Program
@@ -15,7 +15,7 @@ _START: Final = "protocol.initial."
 
 
 def lowered_uses(program: Program, names: frozenset[str]) -> list[str]:
-    """Return the paths of a document that follow one of the parameters and that `rebound` cannot change.
+    """Return the paths of a document that follow one of the parameters and that `Rebinding` cannot change.
 
     Those are values that lowering itself or a rule about values looks at, such as a mass, a component's initial state
     or the rest angle of a joint, and the breakpoints of a parameter that the protocol moves.
@@ -36,17 +36,41 @@ def fixed_uses(program: Program, names: frozenset[str]) -> list[str]:
     return driven + [use.path for use in followers(experiment) if use.parameter in names and use.path not in followed]
 
 
-def rebound(program: Program, values: Mapping[str, str]) -> Program:
-    """Return the program that lowering would give if parameters had other values.
+@dataclass(frozen=True)
+class Rebinding:
+    """A program in which some parameters can have other values without lowering the document again.
 
     Args:
-        program: from `lower`; `lowered_uses` finds nothing for these parameters.
-        values: name -> value as written. Of the document in the graph only `protocol.initial` takes them over.
+        program: from `lower`.
+        names: of the parameters.
+
+    Raises:
+        ValueError: `lowered_uses` finds something for these parameters, which would keep its value.
     """
-    parameters = program.parameters.copy()
-    for name, value in values.items():
-        parameters[program.layout.bound_to(name)] = measure(value)[0]
-    return _started(replace(program, parameters=parameters), values)
+
+    program: Program
+    names: frozenset[str]
+
+    def __post_init__(self) -> None:
+        uses = lowered_uses(self.program, self.names)
+        if uses:
+            raise ValueError(f"only lowering can change {', '.join(uses)}")
+
+    def program_with(self, values: Mapping[str, str]) -> Program:
+        """Return the program that lowering would give if parameters had other values.
+
+        Args:
+            values: name -> value as written. Of the document in the graph only `protocol.initial` takes them over.
+
+        Raises:
+            ValueError: a value is of none of the parameters `names`.
+        """
+        if not values.keys() <= self.names:
+            raise ValueError(f"not among the parameters that can change: {sorted(values.keys() - self.names)}")
+        parameters = self.program.parameters.copy()
+        for name, value in values.items():
+            parameters[self.program.layout.bound_to(name)] = measure(value)[0]
+        return _started(replace(self.program, parameters=parameters), values)
 
 
 def _started(program: Program, values: Mapping[str, str]) -> Program:

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 from neuromech.compiler.lower import lower
 from neuromech.compiler.program import Program
-from neuromech.compiler.rebind import lowered_uses, rebound
+from neuromech.compiler.rebind import Rebinding, lowered_uses
 from neuromech.compiler.records import recorded
 from neuromech.components.catalogue import Catalogue
 from neuromech.graph.build import build
@@ -40,7 +40,8 @@ class ScenarioProgram:
         self._overrides = tuple(overrides)
         self._measures = tuple(measures)
         self._program = self._lowered(())
-        self._is_followed = not lowered_uses(self._program, frozenset(names))
+        tuned = frozenset(names)
+        self._rebinding = None if lowered_uses(self._program, tuned) else Rebinding(self._program, tuned)
 
     def program(self, parameters: Mapping[str, str]) -> Program:
         """Return the program of a candidate.
@@ -51,8 +52,8 @@ class ScenarioProgram:
         Raises:
             DocumentError: these values make a document that is wrong.
         """
-        if self._is_followed:
-            return _startable(rebound(self._program, parameters))
+        if self._rebinding:
+            return _startable(self._rebinding.program_with(parameters))
         return self._lowered([f"parameters.{name}.value={text}" for name, text in parameters.items()])
 
     def _lowered(self, overrides: Sequence[str]) -> Program:

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from neuromech.compiler.lower import lower
-from neuromech.compiler.rebind import fixed_uses, lowered_uses, rebound
+from neuromech.compiler.rebind import Rebinding, fixed_uses, lowered_uses
 from neuromech.pipeline import build_graph, load_document
 from neuromech.simulate.run import simulate
 from neuromech.units import measure
@@ -65,7 +65,7 @@ def test_rewritten_and_lowered_anew_are_the_same_numbers(seed):
         values[name] = f"{generator.uniform(least, most)!r} {unit}".strip()
     original, expected = program(CAT), program(CAT, values)
     assert fixed_uses(original, frozenset(values)) == []
-    found = rebound(original, values)
+    found = Rebinding(original, frozenset(values)).program_with(values)
     assert found.parameters.tobytes() == expected.parameters.tobytes() != original.parameters.tobytes()
     assert found.integers.tobytes() == expected.integers.tobytes()
     assert found.initial.tobytes() == expected.initial.tobytes()
@@ -87,6 +87,14 @@ def test_what_lowering_looks_at_cannot_be_rewritten(document, name, where):
     assert fixed_uses(program(document(LEG)), frozenset({name})) == where
 
 
+def test_a_value_that_would_not_arrive_is_refused(document):
+    lowered = program(document(LEG))
+    with pytest.raises(ValueError, match=r"^only lowering can change body\.segments\.leg\.mass$"):
+        Rebinding(lowered, frozenset({"mass", "damping"}))
+    with pytest.raises(ValueError, match=r"^not among the parameters that can change: \['mass'\]$"):
+        Rebinding(lowered, frozenset({"damping"})).program_with({"mass": "2 kg"})
+
+
 def test_a_ramp_counts_as_well(document):
     ramp = {"ramps": {"up": {"parameter": "gain", "start": "0 s", "end": "1 s", "to": 1}}}
     changed = LEG | {"protocol": LEG["protocol"] | ramp}
@@ -106,7 +114,7 @@ STARTS = {
 def test_the_start_of_a_run_is_rewritten_too(document):
     values = {"angle": "-11 deg", "highest": "-60 mV"}
     original, expected = program(document(LEG | STARTS)), program(document(LEG | STARTS), values)
-    found = rebound(original, values)
+    found = Rebinding(original, frozenset(values)).program_with(values)
     runs = [simulate(one, seed=4) for one in (found, expected, original)]
     for signal in ("hip.angle", "cell.potential"):
         rewritten, lowered, old = (run.signal(signal)[1].tobytes() for run in runs)
