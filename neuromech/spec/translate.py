@@ -52,7 +52,7 @@ def translate(
     tree: MapNode,
     positions: Positions,
     catalogue: Catalogue,
-    wrong_parameters: Collection[str] = (),
+    wrong_parameters: Collection[str],
 ) -> list[Problem]:
     """Return the problems that validation errors stand for, each with its position, one for each place and rule.
 
